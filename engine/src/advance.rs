@@ -1,0 +1,121 @@
+//! Advance (§2.1): every body that moves goes on by one time step.
+
+use crate::area::Vec2;
+use crate::bodies::{Bodies, Motion, Role};
+use crate::forces::Flight;
+use crate::plan::FlightPlan;
+use crate::prescribed::Prescription;
+use crate::work::Work;
+
+/// Which bodies move, by the way they move; a scene without one sort has an empty list.
+#[derive(Clone, Debug, Default)]
+pub struct Movers {
+    /// Mobile bodies: they fly, under the scene's forces.
+    pub mobile: Vec<u32>,
+    /// Fixed bodies with physics: they keep their motion, forces do not reach them.
+    pub fixed: Vec<u32>,
+    /// Fixed bodies whose motion follows from the time.
+    pub prescribed: Vec<Prescription>,
+}
+
+impl Movers {
+    /// Sorts the bodies by the way they move.
+    #[must_use]
+    pub fn new(bodies: &Bodies, prescribed: Vec<Prescription>) -> Self {
+        let those = |role| {
+            let with_role = bodies.role.iter().enumerate().filter(move |(_, r)| **r == role);
+            with_role.map(|(i, _)| i as u32).collect()
+        };
+        Movers { mobile: those(Role::Mobile), fixed: those(Role::FixedWithPhysics), prescribed }
+    }
+
+    /// A fixed body that has been given a motion moves from now on.
+    pub fn add_fixed(&mut self, body: u32) {
+        if let Err(at) = self.fixed.binary_search(&body) {
+            self.fixed.insert(at, body);
+        }
+    }
+
+    /// A body whose velocity was written no longer follows its course.
+    pub fn end_course(&mut self, body: usize) {
+        for prescription in self.prescribed.iter_mut().filter(|p| p.body == body) {
+            prescription.course = None;
+        }
+    }
+
+    /// A body whose spin was written no longer follows its swing.
+    pub fn end_swing(&mut self, body: usize) {
+        for prescription in self.prescribed.iter_mut().filter(|p| p.body == body) {
+            prescription.swing = None;
+        }
+    }
+}
+
+/// Moves every mover to its place at `time`, the end of the step.
+///
+/// Returns the first body found to have left the finite numbers, if one did.
+pub fn advance(
+    bodies: &mut Bodies,
+    movers: &Movers,
+    flight: FlightPlan,
+    dt: f64,
+    time: f64,
+    work: &mut Work,
+) -> Option<usize> {
+    let lost_mobile = match flight {
+        FlightPlan::Free => drift(bodies, &movers.mobile, dt),
+        FlightPlan::Forced { gravity, linear, angular } => {
+            work.bodies_forced += movers.mobile.len() as u64;
+            fly(bodies, &movers.mobile, gravity, linear, angular)
+        }
+    };
+    let lost_fixed = drift(bodies, &movers.fixed, dt);
+    for prescription in &movers.prescribed {
+        prescription.apply(bodies, time);
+    }
+    work.bodies_advanced += (movers.mobile.len() + movers.fixed.len()) as u64;
+    work.prescribed += movers.prescribed.len() as u64;
+    lost_mobile.or(lost_fixed)
+}
+
+/// `O += v·dt`, `θ += ω·dt`.
+fn drift(bodies: &mut Bodies, movers: &[u32], dt: f64) -> Option<usize> {
+    let mut lost = None;
+    for &i in movers {
+        let i = i as usize;
+        let Motion { v, omega } = bodies.motion[i];
+        bodies.shift(i, v * dt);
+        if omega != 0.0 {
+            bodies.turn(i, omega * dt);
+        }
+        if !is_finite(bodies, i) {
+            lost = lost.or(Some(i));
+        }
+    }
+    lost
+}
+
+/// The exact solution of `v̇ = g − k v` over the step (see [`crate::forces`]); spin decays likewise.
+fn fly(bodies: &mut Bodies, movers: &[u32], gravity: Vec2, linear: Flight, angular: Flight) -> Option<usize> {
+    let mut lost = None;
+    for &i in movers {
+        let i = i as usize;
+        let Motion { v, omega } = bodies.motion[i];
+        bodies.shift(i, v * linear.reach + gravity * linear.fall);
+        if omega != 0.0 {
+            bodies.turn(i, omega * angular.reach);
+        }
+        bodies.motion[i] = Motion { v: v * linear.keep + gravity * linear.reach, omega: omega * angular.keep };
+        if !is_finite(bodies, i) {
+            lost = lost.or(Some(i));
+        }
+    }
+    lost
+}
+
+/// Whether place and angle are still numbers; motion that is not shows up in them a step later at most.
+#[inline]
+pub fn is_finite(bodies: &Bodies, i: usize) -> bool {
+    let o = bodies.frame[i].o;
+    (o.x - o.x) + (o.y - o.y) + (bodies.frame[i].cos - bodies.frame[i].cos) == 0.0
+}

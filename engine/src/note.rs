@@ -1,0 +1,124 @@
+//! Notes: where the physics will not do what a scene seems to hope.
+
+use core::fmt;
+
+use crate::area::{Rect, Vec2};
+use crate::broad_phase::BroadPhase;
+use crate::detect::overlap;
+use crate::load;
+use crate::scene::{Body, Kind, Part, Scene};
+use crate::work::Work;
+use crate::world::World;
+
+/// Something a designer should know; not an error.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Note {
+    /// The body it is about, if it is about one.
+    pub body: Option<String>,
+    /// What is the matter, and what can be done.
+    pub text: String,
+}
+
+impl fmt::Display for Note {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.body {
+            Some(body) => write!(f, "body \"{body}\": {}", self.text),
+            None => f.write_str(&self.text),
+        }
+    }
+}
+
+/// All notes on a scene and the world at its start, body after body.
+#[must_use]
+pub fn review(scene: &Scene, world: &World) -> Vec<Note> {
+    let mut notes = Vec::new();
+    for body in &scene.bodies {
+        let texts = [misses_plane(body, scene), centre_elsewhere(body), too_fast(body, scene)];
+        notes.extend(texts.into_iter().flatten().map(|text| Note { body: Some(body.name.clone()), text }));
+    }
+    notes.extend(starts_overlapped(world));
+    notes
+}
+
+fn misses_plane(body: &Body, scene: &Scene) -> Option<String> {
+    let plane = scene.settings.plane;
+    let crossing = load::areas(body, plane).count();
+    (crossing < body.parts.len()).then(|| {
+        let which = match body.parts.len() {
+            1 => "its mesh does".to_owned(),
+            all => format!("{} of its {all} parts do", all - crossing),
+        };
+        let left = if crossing == 0 { "it is not collidable" } else { "they are left out of collisions" };
+        format!("{which} not cross the collision plane at height {plane} m: {left}")
+    })
+}
+
+/// O is the centre of mass by definition; rectangles that lie elsewhere are perhaps not meant so.
+fn centre_elsewhere(body: &Body) -> Option<String> {
+    if body.kind == Kind::Fixed {
+        return None;
+    }
+    let rects: Vec<Rect> = body.parts.iter().map(|part| part_area(part, body)).collect();
+    let area: f64 = rects.iter().map(|rect| rect.width() * rect.depth()).sum();
+    let middle: Vec2 = rects.iter().map(|rect| rect.centre() * (rect.width() * rect.depth() / area)).sum();
+    let size = rects.iter().map(|rect| rect.half().norm()).fold(0.0, f64::max);
+    (middle.norm() > 0.01 * size).then(|| {
+        format!(
+            "its rectangles' own centre is at ({:.4}, {:.4}) in its frame, but it turns about (0, 0), which is its centre of mass by definition",
+            middle.x, middle.y
+        )
+    })
+}
+
+fn part_area(part: &Part, body: &Body) -> Rect {
+    match part {
+        Part::Rect(rect) => rect.scaled(body.scale.0, body.scale.2),
+        Part::Mesh(extent) => extent.area(body.scale.0, body.scale.2),
+    }
+}
+
+/// Found only after a step, an overlap deeper than half a thickness is pushed out on the wrong side.
+fn too_fast(body: &Body, scene: &Scene) -> Option<String> {
+    let rects: Vec<Rect> = load::areas(body, scene.settings.plane).collect();
+    let thickness = rects.iter().map(|rect| rect.width().min(rect.depth())).reduce(f64::min)?;
+    let reach = rects.iter().flat_map(|rect| rect.vertices()).map(|vertex| vertex.norm()).fold(0.0, f64::max);
+    let (vx, vz) = body.velocity.unwrap_or_default();
+    let travel = body.patrol.as_ref().map_or(Vec2::new(vx, vz).norm(), |patrol| patrol.speed);
+    let spin = body.swing.map_or(body.spin.unwrap_or(0.0), |swing| 4.0 * swing.angle / swing.period);
+    let per_step = (travel + spin.abs() * reach) * scene.settings.time_step;
+    (per_step > thickness).then(|| {
+        format!(
+            "its fastest point moves {per_step:.3} m a step but it is only {thickness:.3} m thick, so it may pass through others; use time_step({:.3e}) or less",
+            scene.settings.time_step * 0.5 * thickness / per_step
+        )
+    })
+}
+
+/// How many overlapping pairs are named; the rest are counted.
+const NAMED: usize = 5;
+
+fn starts_overlapped(world: &World) -> Vec<Note> {
+    let mut pairs = Vec::new();
+    let mut broad_phase = BroadPhase::new(world.plan.broad_phase);
+    broad_phase.visit(&world.bodies, &mut Work::default(), |i, j, _| {
+        let depth = overlap::between(&world.bodies, i, j);
+        if depth > 0.0 {
+            pairs.push((i, j, depth));
+        }
+    });
+    pairs.sort_unstable_by_key(|(i, j, _)| (*i, *j));
+    pairs.dedup_by_key(|(i, j, _)| (*i, *j));
+    let name = |i: usize| world.ids().nth(i).map_or("", |id| world.name(id)).to_owned();
+    let mut notes: Vec<Note> = pairs
+        .iter()
+        .take(NAMED)
+        .map(|&(i, j, depth)| Note {
+            body: Some(name(i)),
+            text: format!("it starts {depth:.4} m deep in \"{}\"; the first iteration will push them apart", name(j)),
+        })
+        .collect();
+    if pairs.len() > NAMED {
+        notes.push(Note { body: None, text: format!("{} more pairs start overlapped", pairs.len() - NAMED) });
+    }
+    notes
+}

@@ -1,0 +1,291 @@
+//! The plan: what a scene needs, decided once at load; what it does not need does not run.
+
+use core::fmt;
+
+use crate::area::Vec2;
+use crate::check::{self, BadNumber};
+use crate::error::SceneError;
+use crate::exchange::document::Losses;
+use crate::forces::Flight;
+use crate::load;
+use crate::scene::{BroadPhaseChoice, Detection, ExchangeRule, Kind, MotionRule, Scene, Settings};
+
+/// What is modelled, and how. `Display` prints it for people; snapshots begin with it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plan {
+    /// Length of one iteration \[s\].
+    pub time_step: f64,
+    /// Iterations of a run.
+    pub steps: u64,
+    /// ε of the relocation (§2.4) \[m\].
+    pub epsilon: f64,
+    /// μ_L and μ_A of the exchange (§2.5).
+    pub losses: Losses,
+    /// How bodies fly between collisions.
+    pub flight: FlightPlan,
+    /// How pairs worth testing are found.
+    pub broad_phase: BroadPhasePlan,
+    /// What the bodies are.
+    pub census: Census,
+    /// Where the world's coordinates have their own zero: a round number near the scene when it lies far
+    /// out, (0, 0) for every other scene. All stages compute from there, so distance costs no accuracy.
+    pub origin: Vec2,
+}
+
+/// How mobile bodies fly between collisions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum FlightPlan {
+    /// Uniformly: `O += v·dt`, `θ += ω·dt`.
+    Free,
+    /// Under gravity or drag, solved exactly.
+    Forced {
+        /// Acceleration of every mobile body \[m/s²\].
+        gravity: Vec2,
+        /// Coefficients of the linear decay.
+        linear: Flight,
+        /// Coefficients of the angular decay.
+        angular: Flight,
+    },
+}
+
+/// How the pairs worth testing are found; both ways find the same collisions in the same order.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum BroadPhasePlan {
+    /// No pair can collide: nothing is looked for.
+    Nothing,
+    /// Every pair (§2.3).
+    AllPairs,
+    /// A sweep in strips of that depth \[m\].
+    Strips {
+        /// Depth of a strip along Z.
+        depth: f64,
+    },
+}
+
+/// How many bodies of each sort a scene has.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Census {
+    /// Mobile bodies that take part in collisions.
+    pub mobile: usize,
+    /// Fixed bodies that take part, without physics.
+    pub fixed: usize,
+    /// Fixed bodies that take part, with physics.
+    pub fixed_with_physics: usize,
+    /// Bodies that do not cross the plane.
+    pub not_collidable: usize,
+    /// Bodies of several rectangles.
+    pub compound: usize,
+    /// Bodies with a prescribed motion.
+    pub prescribed: usize,
+    /// Rectangles in all.
+    pub rectangles: usize,
+}
+
+/// Below this many pairs testing them all is cheaper than sorting anything
+/// (measured: `cargo bench --bench broad_phase`); the result is the same either way.
+const ALL_PAIRS_UP_TO: usize = 300;
+
+impl Plan {
+    /// Checks the whole scene and decides what it needs.
+    ///
+    /// # Errors
+    /// The first thing wrong with the scene, naming the body and the value.
+    pub fn resolve(scene: &Scene) -> Result<Plan, SceneError> {
+        let settings = &scene.settings;
+        check_settings(settings).map_err(SceneError::Setting)?;
+        check_models(settings)?;
+        load::check_bodies(scene)?;
+        let census = load::census(scene);
+        Ok(Plan {
+            time_step: settings.time_step,
+            steps: settings.steps,
+            epsilon: settings.epsilon,
+            losses: Losses { mu_l: settings.mu_l, mu_a: settings.mu_a },
+            flight: FlightPlan::resolve(settings, scene),
+            broad_phase: BroadPhasePlan::resolve(scene, &census),
+            census,
+            origin: load::origin(scene),
+        })
+    }
+}
+
+fn check_settings(settings: &Settings) -> Result<(), BadNumber> {
+    check::positive("time_step", settings.time_step)?;
+    check::not_negative("mu_l", settings.mu_l)?;
+    check::not_negative("mu_a", settings.mu_a)?;
+    check::not_negative("epsilon", settings.epsilon)?;
+    check::finite("plane", settings.plane)?;
+    check::unit_range("restitution", settings.restitution)?;
+    check::not_negative("friction", settings.friction)?;
+    check::finite("gravity: x", settings.gravity.0)?;
+    check::finite("gravity: z", settings.gravity.1)?;
+    check::not_negative("drag: linear", settings.drag.0)?;
+    check::not_negative("drag: angular", settings.drag.1)?;
+    Ok(())
+}
+
+/// Refuses the choices this version does not have, rather than running something else in their place.
+fn check_models(settings: &Settings) -> Result<(), SceneError> {
+    let refuse = |setting, word, instead| Err(SceneError::NotAvailable { setting, word, instead });
+    if settings.exchange != ExchangeRule::Document {
+        return refuse("exchange", settings.exchange.word(), "exchange(\"document\") is");
+    }
+    if settings.motion != MotionRule::Stepped {
+        return refuse("motion", settings.motion.word(), "motion(\"stepped\") is");
+    }
+    match settings.detection {
+        None | Some(Detection::Vertices) => Ok(()),
+        Some(other) => refuse("detection", other.word(), "detection(\"vertices\") is"),
+    }
+}
+
+impl FlightPlan {
+    fn resolve(settings: &Settings, scene: &Scene) -> Self {
+        let forced = settings.gravity != (0.0, 0.0) || settings.drag != (0.0, 0.0);
+        if !forced || !scene.bodies.iter().any(|body| body.kind == Kind::Mobile) {
+            return FlightPlan::Free;
+        }
+        FlightPlan::Forced {
+            gravity: Vec2::new(settings.gravity.0, settings.gravity.1),
+            linear: Flight::new(settings.drag.0, settings.time_step),
+            angular: Flight::new(settings.drag.1, settings.time_step),
+        }
+    }
+}
+
+impl BroadPhasePlan {
+    fn resolve(scene: &Scene, census: &Census) -> Self {
+        let Census { mobile, fixed, fixed_with_physics, .. } = *census;
+        let pairs = mobile * mobile.saturating_sub(1) / 2 + mobile * (fixed + fixed_with_physics);
+        match scene.settings.broad_phase {
+            _ if pairs == 0 => BroadPhasePlan::Nothing,
+            BroadPhaseChoice::AllPairs => BroadPhasePlan::AllPairs,
+            BroadPhaseChoice::Auto if pairs <= ALL_PAIRS_UP_TO => BroadPhasePlan::AllPairs,
+            BroadPhaseChoice::Auto | BroadPhaseChoice::Strips => {
+                BroadPhasePlan::Strips { depth: load::strip_depth(scene) }
+            }
+        }
+    }
+}
+
+impl fmt::Display for Plan {
+    /// What is modelled, a line each, and what is left out in one.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for line in self.modelled() {
+            writeln!(f, "{line}")?;
+        }
+        write!(f, "left out: {}", self.left_out().join(", "))
+    }
+}
+
+impl Plan {
+    /// What is modelled, a line each.
+    #[must_use]
+    pub fn modelled(&self) -> Vec<String> {
+        let Plan { census, losses, .. } = self;
+        let mut lines = vec![
+            format!("bodies: {census}"),
+            format!("advance: {}", self.flight),
+            format!("pairs: {}", self.broad_phase),
+        ];
+        if census.prescribed > 0 {
+            lines.insert(2, format!("prescribed: {} patrol or swing, from the time", census.prescribed));
+        }
+        if self.broad_phase != BroadPhasePlan::Nothing {
+            lines.push("detect: vertex in rectangle (§2.3)".to_owned());
+            lines.push(format!("relocate: least distance + ε = {} m (§2.4)", self.epsilon));
+            let cases = census.exchange_cases().join(", ");
+            lines.push(format!("exchange: document, μ_L = {}, μ_A = {}: {cases}", losses.mu_l, losses.mu_a));
+        }
+        if self.origin != Vec2::zeros() {
+            lines.push(format!("origin: ({}, {}), for accuracy far out", self.origin.x, self.origin.y));
+        }
+        lines
+    }
+
+    /// What this scene does not need, and therefore does not pay for.
+    #[must_use]
+    pub fn left_out(&self) -> Vec<&'static str> {
+        let Plan { census, flight, .. } = self;
+        let (gravity, linear, angular) = match *flight {
+            FlightPlan::Free => (false, false, false),
+            FlightPlan::Forced { gravity, linear, angular } => {
+                (gravity != Vec2::zeros(), linear.keep != 1.0, angular.keep != 1.0)
+            }
+        };
+        let nothing = self.broad_phase == BroadPhasePlan::Nothing;
+        [
+            (!gravity, "gravity"),
+            (!linear && !angular, "drag"),
+            (census.prescribed == 0, "prescribed motion"),
+            (census.compound == 0, "compound bodies"),
+            (nothing, "detection, relocation and exchange"),
+            (!nothing && census.mobile < 2, "exchange §2.5.1"),
+            (!nothing && census.fixed_with_physics == 0, "exchange §2.5.2"),
+            (!nothing && census.fixed == 0, "exchange §2.5.3"),
+        ]
+        .into_iter()
+        .filter_map(|(absent, what)| absent.then_some(what))
+        .collect()
+    }
+}
+
+impl Census {
+    fn exchange_cases(&self) -> Vec<&'static str> {
+        [
+            (self.mobile > 1, "mobile–mobile (§2.5.1)"),
+            (self.fixed_with_physics > 0, "mobile–fixed with physics (§2.5.2)"),
+            (self.fixed > 0, "mobile–fixed (§2.5.3)"),
+        ]
+        .into_iter()
+        .filter_map(|(present, case)| present.then_some(case))
+        .collect()
+    }
+}
+
+impl fmt::Display for Census {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let counts = [
+            (self.mobile, "mobile"),
+            (self.fixed_with_physics, "fixed with physics"),
+            (self.fixed, "fixed"),
+            (self.not_collidable, "not collidable"),
+        ];
+        let present: Vec<String> =
+            counts.iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!("{count} {what}")).collect();
+        write!(f, "{}", if present.is_empty() { "none".to_owned() } else { present.join(", ") })?;
+        if self.rectangles > 0 {
+            write!(f, "; {} rectangles", self.rectangles)?;
+        }
+        if self.compound > 0 {
+            write!(f, ", {} compound", self.compound)?;
+        }
+        Ok(())
+    }
+}
+
+impl fmt::Display for FlightPlan {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let FlightPlan::Forced { gravity, linear, angular } = self else {
+            return write!(f, "uniform between collisions (§2.1)");
+        };
+        let mut terms = Vec::new();
+        if *gravity != Vec2::zeros() {
+            terms.push(format!("gravity ({}, {}) m/s²", gravity.x, gravity.y));
+        }
+        if linear.keep != 1.0 || angular.keep != 1.0 {
+            terms.push(format!("drag keeping {} of v and {} of ω a step", linear.keep, angular.keep));
+        }
+        write!(f, "{}, solved exactly", terms.join(" and "))
+    }
+}
+
+impl fmt::Display for BroadPhasePlan {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            BroadPhasePlan::Nothing => write!(f, "none can collide"),
+            BroadPhasePlan::AllPairs => write!(f, "all tested (§2.3)"),
+            BroadPhasePlan::Strips { depth } => write!(f, "swept in strips {depth} m deep"),
+        }
+    }
+}

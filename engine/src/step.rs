@@ -1,0 +1,156 @@
+//! One iteration (§2.1): the story.
+//!
+//! | stage | function | document |
+//! |---|---|---|
+//! | advance | [`advance`](crate::advance::advance) | §2.1 |
+//! | broad phase | [`BroadPhase::visit`](crate::broad_phase::BroadPhase::visit) | §2.3 |
+//! | detect | [`detect::vertices::find`](crate::detect::vertices::find) | §2.3 |
+//! | relocate | [`relocate::separate`](crate::relocate::separate) | §2.4 |
+//! | exchange | [`exchange::document::exchange`](crate::exchange::document::exchange) | §2.5 |
+
+use crate::advance::{advance, is_finite};
+use crate::area::Vec2;
+use crate::command::apply_pushes;
+use crate::detect::vertices;
+use crate::error::Fault;
+use crate::exchange::{PairKind, document};
+use crate::forces::Flight;
+use crate::plan::FlightPlan;
+use crate::relocate;
+use crate::world::{BodyId, World};
+
+/// One exchange, as it is told to whoever watches.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// The iteration it belongs to, the first being 0.
+    pub iteration: u64,
+    /// The pair, in order of creation.
+    pub a: BodyId,
+    /// The later-created of the two.
+    pub b: BodyId,
+    /// The point of collision \[m\].
+    pub point: Vec2,
+    /// Outward normal of the face that was hit.
+    pub normal: Vec2,
+    /// How deep the vertex was found \[m\].
+    pub depth: f64,
+    /// Which case of the exchange it was.
+    pub kind: PairKind,
+}
+
+impl World {
+    /// One whole iteration.
+    pub fn step(&mut self) {
+        self.begin();
+        while self.treat_next().is_some() {}
+        self.finish();
+    }
+
+    /// The first half: every body advances, every overlapping pair is listed.
+    pub fn begin(&mut self) {
+        self.listed.clear();
+        self.treated = 0;
+        if self.fault.is_some() {
+            return;
+        }
+        self.advance();
+        self.detect();
+    }
+
+    /// The second half, pair by pair: the next listed pair that still overlaps is relocated and exchanges.
+    /// `None` when no pair is left.
+    pub fn treat_next(&mut self) -> Option<Hit> {
+        while let Some(&(i, j)) = self.listed.get(self.treated) {
+            self.treated += 1;
+            if let Some(hit) = self.treat(BodyId(i), BodyId(j)) {
+                return Some(hit);
+            }
+        }
+        None
+    }
+
+    /// Ends the iteration.
+    pub fn finish(&mut self) {
+        self.iteration += 1;
+        self.work.iterations += 1;
+    }
+
+    /// Commands and advance (§2.1).
+    fn advance(&mut self) {
+        let World { plan, bodies, movers, pushes, work, .. } = self;
+        let dt = plan.time_step;
+        self.advances += 1;
+        let time = self.advances as f64 * dt;
+        let lost = advance(bodies, movers, plan.flight, dt, time, work);
+        if !pushes.is_empty() {
+            let (linear, angular) = match plan.flight {
+                FlightPlan::Free => (Flight::new(0.0, dt), Flight::new(0.0, dt)),
+                FlightPlan::Forced { linear, angular, .. } => (linear, angular),
+            };
+            apply_pushes(bodies, pushes, linear, angular);
+            pushes.clear();
+        }
+        if let Some(body) = lost {
+            self.report_fault(body);
+        }
+    }
+
+    /// Lists the pairs that overlap, in order (R3).
+    fn detect(&mut self) {
+        if self.fault.is_some() {
+            return;
+        }
+        let World { broad_phase, bodies, listed, work, .. } = self;
+        broad_phase.visit(bodies, work, |i, j, work| {
+            if vertices::find(bodies, i, j, work).is_some() {
+                listed.push((i as u32, j as u32));
+            }
+        });
+        listed.sort_unstable();
+        listed.dedup();
+        work.pairs_listed += listed.len() as u64;
+    }
+
+    /// Detects a listed pair again, with the frames as they are by now; relocates it and exchanges.
+    fn treat(&mut self, a: BodyId, b: BodyId) -> Option<Hit> {
+        let World { plan, bodies, work, .. } = self;
+        let contact = vertices::find(bodies, a.index(), b.index(), work)?;
+        let placed = relocate::separate(bodies, &contact, plan.epsilon);
+        work.relocations += 1;
+        let kind = document::exchange(bodies, &placed, plan.losses)?;
+        work.count_exchange(kind);
+        self.collisions += 1;
+        for body in [a.index(), b.index()] {
+            if !self.moves_finitely(body) {
+                self.report_fault(body);
+            }
+        }
+        Some(Hit {
+            iteration: self.iteration,
+            a,
+            b,
+            point: placed.point + self.plan.origin,
+            normal: placed.normal,
+            depth: contact.depth,
+            kind,
+        })
+    }
+
+    fn moves_finitely(&self, body: usize) -> bool {
+        let motion = self.bodies.motion[body];
+        is_finite(&self.bodies, body)
+            && (motion.v.x - motion.v.x) + (motion.v.y - motion.v.y) + (motion.omega - motion.omega) == 0.0
+    }
+
+    /// Remembers the first body that left the finite numbers, and gives up the rest of the iteration.
+    fn report_fault(&mut self, body: usize) {
+        let (frame, motion) = (self.bodies.frame[body], self.bodies.motion[body]);
+        self.treated = self.listed.len();
+        let what = format!(
+            "x = {}, z = {}, vx = {}, vz = {}, spin = {}",
+            frame.o.x, frame.o.y, motion.v.x, motion.v.y, motion.omega
+        );
+        let name = self.name(BodyId(body as u32)).to_owned();
+        self.fault.get_or_insert(Fault { body: name, iteration: self.iteration, what });
+    }
+}
