@@ -116,6 +116,6 @@ fn fly(bodies: &mut Bodies, movers: &[u32], gravity: Vec2, linear: Flight, angul
 /// Whether place and angle are still numbers; motion that is not shows up in them a step later at most.
 #[inline]
 pub fn is_finite(bodies: &Bodies, i: usize) -> bool {
-    let o = bodies.frame[i].o;
-    (o.x - o.x) + (o.y - o.y) + (bodies.frame[i].cos - bodies.frame[i].cos) == 0.0
+    let frame = &bodies.frame[i];
+    frame.o.x.is_finite() & frame.o.y.is_finite() & frame.cos.is_finite()
 }

@@ -2,6 +2,7 @@
 
 use crate::area::{Rect, Vec2};
 use crate::frame::{Angle, Frame, add_kept};
+use crate::trig::sin_cos;
 
 /// What collisions may do to a body, and what it hands over.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -109,7 +110,7 @@ impl Bodies {
 
     #[inline]
     fn refresh_rotation(&mut self, body: usize) {
-        let (sin, cos) = libm::sincos(self.angle[body].value);
+        let (sin, cos) = sin_cos(self.angle[body].value);
         self.frame[body].sin = sin;
         self.frame[body].cos = cos;
     }

@@ -4,7 +4,7 @@ use thiserror::Error;
 
 /// A number that is not what it has to be.
 #[derive(Clone, Debug, PartialEq, Error)]
-#[error("{what} must be {must}, not {value}")]
+#[error("{what} must be {must}, not {}", shown(*.value))]
 pub struct BadNumber {
     /// What the number is for: `mass`, `mu_l`, `velocity: x`.
     pub what: String,
@@ -12,6 +12,17 @@ pub struct BadNumber {
     pub must: &'static str,
     /// The number given.
     pub value: f64,
+}
+
+/// A number as a person writes it: very large and very small ones with an exponent.
+#[must_use]
+pub fn shown(value: f64) -> String {
+    let size = value.abs();
+    if size == 0.0 || !size.is_finite() || (1e-6..1e15).contains(&size) {
+        value.to_string()
+    } else {
+        format!("{value:e}")
+    }
 }
 
 fn demand(holds: bool, what: &str, must: &'static str, value: f64) -> Result<f64, BadNumber> {

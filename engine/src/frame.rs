@@ -3,6 +3,7 @@
 //! Angle θ turns +X towards +Z: `R(θ) = [[cos, −sin], [sin, cos]]` on (x, z).
 
 use crate::area::Vec2;
+use crate::trig::sin_cos;
 
 /// A body's frame (SRO → SRU): a rotation, then a translation to its centre O.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,10 +17,10 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// The frame at O turned by θ.
+    /// The frame at O turned by θ in −π … π.
     #[must_use]
     pub fn new(o: Vec2, angle: f64) -> Self {
-        let (sin, cos) = libm::sincos(angle);
+        let (sin, cos) = sin_cos(angle);
         Frame { o, cos, sin }
     }
 

@@ -55,6 +55,7 @@ pub mod relocate;
 pub mod scene;
 pub mod step;
 pub mod totals;
+pub mod trig;
 pub mod work;
 pub mod world;
 

@@ -207,7 +207,7 @@ pub fn origin(scene: &Scene) -> Vec2 {
     };
     let (middle, size) = ((low + high) * 0.5, high - low);
     let cell = CELLS_PER_SCENE * power_of_two_from(f64::max(1.0, size.x.max(size.y)));
-    middle.map(|x| libm::round(x / cell) * cell)
+    if cell.is_finite() { middle.map(|x| libm::round(x / cell) * cell) } else { Vec2::zeros() }
 }
 
 /// A scene within half a cell of the world's origin keeps that origin; 16 times its own size is near enough

@@ -10,6 +10,7 @@
 
 use crate::advance::{advance, is_finite};
 use crate::area::Vec2;
+use crate::bodies::Motion;
 use crate::command::apply_pushes;
 use crate::detect::vertices;
 use crate::error::Fault;
@@ -137,9 +138,8 @@ impl World {
     }
 
     fn moves_finitely(&self, body: usize) -> bool {
-        let motion = self.bodies.motion[body];
-        is_finite(&self.bodies, body)
-            && (motion.v.x - motion.v.x) + (motion.v.y - motion.v.y) + (motion.omega - motion.omega) == 0.0
+        let Motion { v, omega } = self.bodies.motion[body];
+        is_finite(&self.bodies, body) & v.x.is_finite() & v.y.is_finite() & omega.is_finite()
     }
 
     /// Remembers the first body that left the finite numbers, and gives up the rest of the iteration.

@@ -72,7 +72,7 @@ impl World {
             bodies,
             movers,
             pushes: Vec::new(),
-            listed: Vec::new(),
+            listed: Vec::with_capacity(scene.bodies.len() / 2 + 16),
             treated: 0,
             iteration: 0,
             advances: 0,

@@ -13,7 +13,6 @@
 //! strips of one bucket cost a comparison, never a collision. All bounds are widened by more than the vertex
 //! test can err, so no collision is missed.
 
-use super::can_collide;
 use crate::area::{Rect, Vec2};
 use crate::bodies::Bodies;
 use crate::detect::overlap;
@@ -25,8 +24,8 @@ use crate::work::Work;
 pub struct Strips {
     /// Depth of a strip along Z \[m\], a power of two.
     depth: f64,
-    /// Whose rectangle each is: the body of every rectangle of the world.
-    body_of: Vec<u32>,
+    /// Whose rectangle each is: the body of every rectangle of the world, and whether that is mobile.
+    owner: Vec<Owner>,
     /// All rectangles, nearly in the order of their x_min: so the strips fill nearly sorted.
     order: Vec<u32>,
     /// Iterations until `order` is sorted afresh.
@@ -37,24 +36,37 @@ pub struct Strips {
     begins: Vec<u32>,
     /// The buckets' entries, bucket after bucket.
     entries: Vec<Entry>,
+    met: Met,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Owner {
+    body: u32,
+    mobile: bool,
+}
+
+/// A range along an axis, rounded outwards to f32: bounds only have to be sure, and half the bytes is
+/// half the traffic.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Range {
+    min: f32,
+    max: f32,
 }
 
 /// The bounds of a rectangle in the world, widened, and the strips it reaches into.
 #[derive(Clone, Copy, Debug)]
 struct Bounds {
-    x: (f64, f64),
-    z: (f64, f64),
-    first: i64,
-    last: i64,
+    x: Range,
+    z: Range,
+    first: i32,
+    last: i32,
 }
 
 /// A rectangle in a strip.
 #[derive(Clone, Copy, Debug)]
 struct Entry {
-    x_min: f64,
-    x_max: f64,
-    z_min: f64,
-    z_max: f64,
+    x: Range,
+    z: Range,
     rect: u32,
     /// Whether pairs with it are to be shown in this strip whatever the partner says (see [`Strips::sweep`]).
     shows: bool,
@@ -65,11 +77,14 @@ struct Entry {
 const WIDENING: f64 = 1e-13;
 
 /// A rectangle that reaches into this many strips is cut to the range of x it covers in each.
-const LONG: i64 = 6;
+const LONG: i32 = 6;
 
 /// Iterations between fresh sorts of `order`; in between, each strip mends its own order. A body passes few
 /// neighbours in so many steps; the sorting's cost, shared among them, vanishes.
 const FRESH_FOR: u32 = 16;
+
+/// Rectangles per bucket, on average; fewer buckets alias more strips, more buckets cost more to walk through.
+const PER_BUCKET: usize = 8;
 
 impl Strips {
     /// An empty sweep with strips of that depth.
@@ -77,18 +92,19 @@ impl Strips {
     pub fn new(depth: f64) -> Self {
         Strips {
             depth,
-            body_of: Vec::new(),
+            owner: Vec::new(),
             order: Vec::new(),
             fresh_for: 0,
             bounds: Vec::new(),
             begins: Vec::new(),
             entries: Vec::new(),
+            met: Met::new(),
         }
     }
 
     /// Shows every pair (i < j) of which two rectangles are not certainly apart; some more than once.
     pub fn visit(&mut self, bodies: &Bodies, work: &mut Work, visit: impl FnMut(usize, usize, &mut Work)) {
-        if self.body_of.len() != bodies.rects.len() {
+        if self.owner.len() != bodies.rects.len() {
             self.number_rectangles(bodies);
         }
         self.compute_bounds(bodies);
@@ -99,34 +115,39 @@ impl Strips {
     }
 
     fn number_rectangles(&mut self, bodies: &Bodies) {
-        self.body_of.clear();
+        self.owner.clear();
         for body in 0..bodies.len() {
-            self.body_of.extend(bodies.rects_of(body).iter().map(|_| body as u32));
+            let owner = Owner { body: body as u32, mobile: bodies.is_mobile(body) };
+            self.owner.extend(bodies.rects_of(body).iter().map(|_| owner));
         }
-        self.order = (0..self.body_of.len() as u32).collect();
+        self.order = (0..self.owner.len() as u32).collect();
         self.fresh_for = 0;
-        let buckets = self.body_of.len().next_power_of_two().max(64);
+        let buckets = (self.owner.len() / PER_BUCKET).next_power_of_two().max(64);
         self.begins = vec![0; buckets + 1];
     }
 
     fn compute_bounds(&mut self, bodies: &Bodies) {
         let per_depth = 1.0 / self.depth;
         self.bounds.clear();
-        self.bounds.extend(self.body_of.iter().zip(&bodies.rects).map(|(&body, rect)| {
-            let (x, z) = bounds(&bodies.frame[body as usize], rect);
-            Bounds { x, z, first: floor(z.0 * per_depth), last: floor(z.1 * per_depth) }
+        self.bounds.extend(self.owner.iter().zip(&bodies.rects).map(|(owner, rect)| {
+            let (x, z) = bounds(&bodies.frame[owner.body as usize], rect);
+            let strip = |z: f32| floor(f64::from(z) * per_depth);
+            Bounds { x, z, first: strip(z.min), last: strip(z.max) }
         }));
-        self.cut_to_where_mobiles_are(bodies);
+        self.cut_to_where_mobiles_are();
     }
 
     /// Fixed rectangles need no entry in strips without a mobile one: nothing there can collide.
-    fn cut_to_where_mobiles_are(&mut self, bodies: &Bodies) {
-        let is_mobile = |body: &u32| bodies.is_mobile(*body as usize);
-        let mobile = self.body_of.iter().zip(&self.bounds).filter(|(body, _)| is_mobile(body));
-        let (first, last) =
-            mobile.fold((i64::MAX, i64::MIN), |(first, last), (_, b)| (first.min(b.first), last.max(b.last)));
-        for (body, bounds) in self.body_of.iter().zip(&mut self.bounds) {
-            if !is_mobile(body) {
+    fn cut_to_where_mobiles_are(&mut self) {
+        let (mut first, mut last) = (i32::MAX, i32::MIN);
+        for (owner, bounds) in self.owner.iter().zip(&self.bounds) {
+            if owner.mobile {
+                first = first.min(bounds.first);
+                last = last.max(bounds.last);
+            }
+        }
+        for (owner, bounds) in self.owner.iter().zip(&mut self.bounds) {
+            if !owner.mobile {
                 bounds.first = bounds.first.max(first);
                 bounds.last = bounds.last.min(last);
             }
@@ -137,7 +158,7 @@ impl Strips {
     fn refresh_order(&mut self) {
         if self.fresh_for == 0 {
             let bounds = &self.bounds;
-            let key = |rect: u32| bounds[rect as usize].x.0;
+            let key = |rect: u32| bounds[rect as usize].x.min;
             self.order.sort_unstable_by(|a, b| key(*a).total_cmp(&key(*b)).then(a.cmp(b)));
             self.fresh_for = FRESH_FOR;
         }
@@ -146,22 +167,25 @@ impl Strips {
 
     /// Fills the buckets: counted first, then placed, then each put in order.
     fn enter(&mut self, bodies: &Bodies) {
-        let mask = (self.begins.len() - 2) as u64;
+        let mask = (self.begins.len() - 2) as u32;
         self.begins.fill(0);
         for bounds in &self.bounds {
             for strip in bounds.strips(mask) {
-                self.begins[(strip as u64 & mask) as usize + 1] += 1;
+                self.begins[(strip as u32 & mask) as usize + 1] += 1;
             }
         }
         for bucket in 1..self.begins.len() {
             self.begins[bucket] += self.begins[bucket - 1];
         }
         let count = self.begins[self.begins.len() - 1] as usize;
+        if count > self.entries.capacity() {
+            self.entries.reserve_exact(count + count / 4 - self.entries.len()); // room to fluctuate in
+        }
         self.entries.resize(count, Entry::NONE);
         for &rect in &self.order {
             let bounds = &self.bounds[rect as usize];
             for strip in bounds.strips(mask) {
-                let bucket = (strip as u64 & mask) as usize;
+                let bucket = (strip as u32 & mask) as usize;
                 let slot = self.begins[bucket];
                 self.begins[bucket] = slot + 1;
                 self.entries[slot as usize] = self.entry(bodies, rect, strip, mask);
@@ -173,20 +197,20 @@ impl Strips {
     }
 
     /// A rectangle's entry in one strip.
-    fn entry(&self, bodies: &Bodies, rect: u32, strip: i64, mask: u64) -> Entry {
+    fn entry(&self, bodies: &Bodies, rect: u32, strip: i32, mask: u32) -> Entry {
         let Bounds { x, z, first, last } = self.bounds[rect as usize];
-        let entry = Entry { x_min: x.0, x_max: x.1, z_min: z.0, z_max: z.1, rect, shows: strip == first };
-        let reach = last.saturating_sub(first);
+        let entry = Entry { x, z, rect, shows: strip == first };
+        let reach = last - first;
         if reach < LONG {
             return entry;
         }
-        if reach as u64 > mask {
+        if reach as u32 > mask {
             return Entry { shows: true, ..entry }; // it stands in every bucket once, for many strips at a time
         }
-        let frame = &bodies.frame[self.body_of[rect as usize] as usize];
-        let slab = (strip as f64 * self.depth, (strip as f64 + 1.0) * self.depth);
+        let frame = &bodies.frame[self.owner[rect as usize].body as usize];
+        let slab = (f64::from(strip) * self.depth, (f64::from(strip) + 1.0) * self.depth);
         match range_within(frame, &bodies.rects[rect as usize], slab) {
-            Some((x_min, x_max)) => Entry { x_min: x_min.max(x.0), x_max: x_max.min(x.1), shows: true, ..entry },
+            Some(cut) => Entry { x: cut.common(x), shows: true, ..entry },
             None => Entry { shows: true, ..entry },
         }
     }
@@ -195,46 +219,101 @@ impl Strips {
     /// Two rectangles may share several strips; the pair is shown in the first that both reach into, which is
     /// the first strip of one of them. Entries cut to their strip may meet in any, and are shown in each.
     fn sweep(&mut self, bodies: &Bodies, work: &mut Work, mut visit: impl FnMut(usize, usize, &mut Work)) {
-        let Strips { begins, entries, body_of, .. } = self;
-        let mut compared = 0;
+        let Strips { begins, entries, owner, met, .. } = self;
         for bucket in begins.windows(2) {
             let strip = &mut entries[bucket[0] as usize..bucket[1] as usize];
             put_in_order(strip);
             for (k, a) in strip.iter().enumerate() {
-                for b in strip[k + 1..].iter().take_while(|b| b.x_min <= a.x_max) {
-                    compared += 1;
-                    let beside = b.z_min > a.z_max || b.z_max < a.z_min;
-                    if beside || !(a.shows || b.shows) {
-                        continue;
-                    }
-                    let (i, j) = (body_of[a.rect as usize] as usize, body_of[b.rect as usize] as usize);
-                    if i != j && can_collide(bodies, i, j) && may_touch(bodies, (i, a.rect), (j, b.rect)) {
-                        visit(i.min(j), i.max(j), work);
-                    }
+                let mut rest = &strip[k + 1..];
+                while !rest.is_empty() {
+                    let (some, more) = rest.split_at(rest.len().min(AT_ONCE));
+                    work.bounds_compared += some.len() as u64;
+                    met.gather(a, some);
+                    rest = if more.first().is_some_and(|b| b.x.min <= a.x.max) { more } else { &[] };
+                }
+                if met.is_full() {
+                    show(bodies, owner, met, work, &mut visit);
                 }
             }
         }
-        work.bounds_compared += compared;
+        show(bodies, owner, met, work, &mut visit);
+    }
+}
+
+/// Neighbours compared at a time: most entries have fewer that overlap, so one look is enough.
+const AT_ONCE: usize = 4;
+
+/// Pairs gathered before they are looked at: the rectangles of many pairs are fetched at a time.
+const BATCH: usize = 1024;
+
+/// Pairs of rectangles whose bounds overlap, gathered a batch at a time.
+#[derive(Clone, Debug)]
+struct Met {
+    pairs: Vec<(u32, u32)>,
+    count: usize,
+}
+
+impl Met {
+    /// Room for a batch and for one entry's neighbours beyond it.
+    fn new() -> Self {
+        Met { pairs: vec![(0, 0); BATCH + AT_ONCE], count: 0 }
+    }
+
+    fn is_full(&self) -> bool {
+        self.count >= BATCH
+    }
+
+    /// Keeps those neighbours of an entry that overlap it, without a branch on which they are: that cannot be
+    /// foreseen. Every pair is written, only those that overlap are counted.
+    #[inline]
+    fn gather(&mut self, a: &Entry, neighbours: &[Entry]) {
+        if self.count + AT_ONCE > self.pairs.len() {
+            self.pairs.resize(2 * self.pairs.len(), (0, 0));
+        }
+        for b in neighbours {
+            let along_x = b.x.min <= a.x.max;
+            let along_z = (b.z.min <= a.z.max) & (b.z.max >= a.z.min);
+            self.pairs[self.count] = (a.rect, b.rect);
+            self.count += usize::from(along_x & along_z & (a.shows | b.shows));
+        }
+    }
+}
+
+/// Shows those pairs of rectangles that may collide and are not certainly apart.
+#[inline]
+fn show(
+    bodies: &Bodies,
+    owner: &[Owner],
+    met: &mut Met,
+    work: &mut Work,
+    visit: &mut impl FnMut(usize, usize, &mut Work),
+) {
+    for &(a, b) in &met.pairs[..core::mem::take(&mut met.count)] {
+        let (one, two) = (owner[a as usize], owner[b as usize]);
+        let (i, j) = (one.body as usize, two.body as usize);
+        if i != j && (one.mobile || two.mobile) && may_touch(bodies, (i, a), (j, b)) {
+            visit(i.min(j), i.max(j), work);
+        }
     }
 }
 
 impl Bounds {
     /// The strips it has entries in; no more than there are buckets.
     #[inline]
-    fn strips(&self, mask: u64) -> impl Iterator<Item = i64> + use<> {
-        let first = self.first;
-        let more = self.last.saturating_sub(first).min(mask as i64);
-        (0..=more).map(move |k| first + k)
+    fn strips(&self, mask: u32) -> core::ops::Range<i32> {
+        let last = self.last.min(self.first + mask as i32);
+        self.first..last + 1
     }
 }
 
 impl Entry {
-    const NONE: Entry = Entry { x_min: 0.0, x_max: 0.0, z_min: 0.0, z_max: 0.0, rect: 0, shows: false };
+    const NONE: Entry =
+        Entry { x: Range { min: 0.0, max: 0.0 }, z: Range { min: 0.0, max: 0.0 }, rect: 0, shows: false };
 
     /// The one order of a strip: by x_min, then by rectangle.
     #[inline]
     fn comes_before(&self, other: &Entry) -> bool {
-        self.x_min < other.x_min || (self.x_min == other.x_min && self.rect < other.rect)
+        self.x.min < other.x.min || (self.x.min == other.x.min && self.rect < other.rect)
     }
 }
 
@@ -250,7 +329,7 @@ fn put_in_order(strip: &mut [Entry]) {
         }
         strip[at] = entry;
         if k - at > patience {
-            strip.sort_unstable_by(|a, b| a.x_min.total_cmp(&b.x_min).then(a.rect.cmp(&b.rect)));
+            strip.sort_unstable_by(|a, b| a.x.min.total_cmp(&b.x.min).then(a.rect.cmp(&b.rect)));
             return;
         }
         patience -= k - at;
@@ -263,15 +342,28 @@ fn may_touch(bodies: &Bodies, (i, rect_i): (usize, u32), (j, rect_j): (usize, u3
     !overlap::certainly_apart(&bodies.frame[i], a, &bodies.frame[j], b)
 }
 
+impl Range {
+    /// The range, rounded outwards: by twice what rounding to f32 can err.
+    #[inline]
+    fn around(min: f64, max: f64) -> Self {
+        let ulp = f64::from(f32::EPSILON);
+        Range { min: (min - min.abs() * ulp) as f32, max: (max + max.abs() * ulp) as f32 }
+    }
+
+    fn common(self, other: Range) -> Range {
+        Range { min: self.min.max(other.min), max: self.max.min(other.max) }
+    }
+}
+
 /// The widened bounds of a rectangle in the world: its ranges of x and of z.
 #[inline]
-fn bounds(frame: &Frame, rect: &Rect) -> ((f64, f64), (f64, f64)) {
+fn bounds(frame: &Frame, rect: &Rect) -> (Range, Range) {
     let (centre, half) = (frame.place(rect.centre()), rect.half());
     let (cos, sin) = (frame.cos.abs(), frame.sin.abs());
     let widening = widening(frame, rect);
     let reach_x = cos * half.x + sin * half.y + widening;
     let reach_z = sin * half.x + cos * half.y + widening;
-    ((centre.x - reach_x, centre.x + reach_x), (centre.y - reach_z, centre.y + reach_z))
+    (Range::around(centre.x - reach_x, centre.x + reach_x), Range::around(centre.y - reach_z, centre.y + reach_z))
 }
 
 /// By how much bounds may be wrong, many times over.
@@ -282,7 +374,7 @@ fn widening(frame: &Frame, rect: &Rect) -> f64 {
 }
 
 /// The range of x that a rectangle covers between two values of z, widened; `None` where it has none.
-fn range_within(frame: &Frame, rect: &Rect, slab: (f64, f64)) -> Option<(f64, f64)> {
+fn range_within(frame: &Frame, rect: &Rect, slab: (f64, f64)) -> Option<Range> {
     let widening = widening(frame, rect);
     let (low, high) = (slab.0 - widening, slab.1 + widening);
     let corners = rect.vertices().map(|vertex| frame.place(vertex));
@@ -295,7 +387,7 @@ fn range_within(frame: &Frame, rect: &Rect, slab: (f64, f64)) -> Option<(f64, f6
     }
     // An edge cut at a shallow angle errs by more than a rounding; a thousandth of the depth is ample and cheap.
     let slack = widening + 1e-3 * (slab.1 - slab.0);
-    range.map(|(least, greatest)| (least - slack, greatest + slack))
+    range.map(|(least, greatest)| Range::around(least - slack, greatest + slack))
 }
 
 /// The x at both ends of what an edge has between two values of z.
@@ -311,9 +403,9 @@ fn cut(from: Vec2, to: Vec2, low: f64, high: f64) -> Option<(f64, f64)> {
     Some((start, end))
 }
 
-/// ⌊x⌋ as a whole number; far out it stays at the ends of the range.
+/// ⌊x⌋ as a whole number; far out it stays at the ends of a range wide enough for any number of strips.
 #[inline]
-fn floor(x: f64) -> i64 {
-    let towards_zero = x as i64;
-    if (towards_zero as f64) > x { towards_zero.saturating_sub(1) } else { towards_zero }
+fn floor(x: f64) -> i32 {
+    let towards_zero = x.clamp(-1e9, 1e9) as i32;
+    if f64::from(towards_zero) > x { towards_zero - 1 } else { towards_zero }
 }

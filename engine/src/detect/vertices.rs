@@ -24,14 +24,15 @@ pub fn find(bodies: &Bodies, i: usize, j: usize, work: &mut Work) -> Option<Cont
 }
 
 /// "1 against 2": the first vertex of `owner` that lies in `reference`.
+#[inline]
 fn one_against_two(bodies: &Bodies, owner: usize, reference: usize, work: &mut Work) -> Option<Contact> {
     let seen = bodies.frame[owner].seen_from(&bodies.frame[reference]);
     for rect in bodies.rects_of(owner) {
         for target in bodies.rects_of(reference) {
             work.vertices_transformed += 4;
-            let vertices = rect.vertices();
-            if let Some(vertex) = vertices.into_iter().find(|vertex| contains(target, seen.place(*vertex))) {
-                let p = seen.place(vertex);
+            let places = rect.vertices().map(|vertex| seen.place(vertex));
+            if let Some(first) = first_inside(target, &places) {
+                let (vertex, p) = (rect.vertices()[first], places[first]);
                 let (face, depth) = nearest_face(target, p);
                 return Some(Contact { owner, reference, vertex, on_face: face.project(target, p), face, depth });
             }
@@ -40,10 +41,13 @@ fn one_against_two(bodies: &Bodies, owner: usize, reference: usize, work: &mut W
     None
 }
 
-/// Whether the point lies in the closed ranges of the rectangle.
+/// The first of the points that lies in the closed ranges of the rectangle. All four are looked at without a
+/// branch: which one it is cannot be foreseen, and a wrong guess costs more than four comparisons.
 #[inline]
-fn contains(rect: &Rect, p: Vec2) -> bool {
-    rect.x_min <= p.x && p.x <= rect.x_max && rect.z_min <= p.y && p.y <= rect.z_max
+fn first_inside(rect: &Rect, points: &[Vec2; 4]) -> Option<usize> {
+    let inside = points.map(|p| (rect.x_min <= p.x) & (p.x <= rect.x_max) & (rect.z_min <= p.y) & (p.y <= rect.z_max));
+    let bits = inside.into_iter().rev().fold(0_u8, |bits, inside| bits << 1 | u8::from(inside));
+    (bits != 0).then_some(bits.trailing_zeros() as usize)
 }
 
 /// The face the point is nearest to and how far inside it lies (§2.4; reading R5: the first of equals).

@@ -40,7 +40,11 @@ fn scene(json: &Value) -> Scene {
         epsilon: number(json, "epsilon"),
         ..Settings::default()
     };
-    Scene { settings, bodies: json["bodies"].as_array().expect("bodies").iter().map(body).collect(), ..Scene::default() }
+    Scene {
+        settings,
+        bodies: json["bodies"].as_array().expect("bodies").iter().map(body).collect(),
+        ..Scene::default()
+    }
 }
 
 fn assert_near(what: &str, found: f64, expected: f64) {
