@@ -4,11 +4,12 @@ use core::fmt;
 
 use crate::area::{Rect, Vec2};
 use crate::broad_phase::BroadPhase;
-use crate::detect::overlap;
+use crate::check::shown;
+use crate::detect::{overlap, vertices};
 use crate::load;
 use crate::scene::{Body, Kind, Part, Scene};
 use crate::work::Work;
-use crate::world::World;
+use crate::world::{BodyId, World};
 
 /// Something a designer should know; not an error.
 #[derive(Clone, Debug, PartialEq)]
@@ -64,8 +65,10 @@ fn centre_elsewhere(body: &Body) -> Option<String> {
     let size = rects.iter().map(|rect| rect.half().norm()).fold(0.0, f64::max);
     (middle.norm() > 0.01 * size).then(|| {
         format!(
-            "its rectangles' own centre is at ({:.4}, {:.4}) in its frame, but it turns about (0, 0), which is its centre of mass by definition",
-            middle.x, middle.y
+            "its rectangles' own centre is at ({}, {}) in its frame, but it turns about (0, 0), which is its centre \
+             of mass by definition",
+            shown(rounded(middle.x)),
+            shown(rounded(middle.y)),
         )
     })
 }
@@ -85,13 +88,22 @@ fn too_fast(body: &Body, scene: &Scene) -> Option<String> {
     let (vx, vz) = body.velocity.unwrap_or_default();
     let travel = body.patrol.as_ref().map_or(Vec2::new(vx, vz).norm(), |patrol| patrol.speed);
     let spin = body.swing.map_or(body.spin.unwrap_or(0.0), |swing| 4.0 * swing.angle / swing.period);
-    let per_step = (travel + spin.abs() * reach) * scene.settings.time_step;
+    let dt = scene.settings.time_step;
+    let per_step = (travel + spin.abs() * reach) * dt;
     (per_step > thickness).then(|| {
         format!(
-            "its fastest point moves {per_step:.3} m a step but it is only {thickness:.3} m thick, so it may pass through others; use time_step({:.3e}) or less",
-            scene.settings.time_step * 0.5 * thickness / per_step
+            "its fastest point moves {} m a step but it is only {} m thick, so it may pass through others; \
+             use time_step({:.1e}) or less",
+            shown(rounded(per_step)),
+            shown(rounded(thickness)),
+            dt * (0.5 * thickness / per_step),
         )
     })
+}
+
+/// To three decimals: a note is read, not computed with.
+fn rounded(value: f64) -> f64 {
+    if value < 1e12 { libm::round(value * 1e3) / 1e3 } else { value }
 }
 
 /// How many overlapping pairs are named; the rest are counted.
@@ -108,17 +120,20 @@ fn starts_overlapped(world: &World) -> Vec<Note> {
     });
     pairs.sort_unstable_by_key(|(i, j, _)| (*i, *j));
     pairs.dedup_by_key(|(i, j, _)| (*i, *j));
-    let name = |i: usize| world.ids().nth(i).map_or("", |id| world.name(id)).to_owned();
-    let mut notes: Vec<Note> = pairs
-        .iter()
-        .take(NAMED)
-        .map(|&(i, j, depth)| Note {
-            body: Some(name(i)),
-            text: format!("it starts {depth:.4} m deep in \"{}\"; the first iteration will push them apart", name(j)),
-        })
-        .collect();
+    let mut notes: Vec<Note> =
+        pairs.iter().take(NAMED).map(|&(i, j, depth)| overlap_note(world, i, j, depth)).collect();
     if pairs.len() > NAMED {
         notes.push(Note { body: None, text: format!("{} more pairs start overlapped", pairs.len() - NAMED) });
     }
     notes
+}
+
+fn overlap_note(world: &World, i: usize, j: usize, depth: f64) -> Note {
+    let name = |i: usize| world.name(BodyId(i as u32));
+    let outcome = match vertices::find(&world.bodies, i, j, &mut Work::default()) {
+        Some(_) => "the first iteration will push them apart",
+        None => "no vertex of one lies in the other, so detection(\"vertices\") does not see it",
+    };
+    let text = format!("it starts {} m deep in \"{}\"; {outcome}", shown(rounded(depth)), name(j));
+    Note { body: Some(name(i).to_owned()), text }
 }

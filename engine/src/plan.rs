@@ -81,9 +81,9 @@ pub struct Census {
     pub rectangles: usize,
 }
 
-/// Below this many pairs testing them all is cheaper than sorting anything
-/// (measured: `cargo bench --bench broad_phase`); the result is the same either way.
-const ALL_PAIRS_UP_TO: usize = 300;
+/// Up to this many pairs testing them all is cheaper than sorting anything (measured: `cargo bench --bench
+/// speed -- crossover`; three boxes between four walls are even). The result is the same either way.
+const ALL_PAIRS_UP_TO: usize = 15;
 
 impl Plan {
     /// Checks the whole scene and decides what it needs.

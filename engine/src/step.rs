@@ -11,6 +11,7 @@
 use crate::advance::{advance, is_finite};
 use crate::area::Vec2;
 use crate::bodies::Motion;
+use crate::check::shown;
 use crate::command::apply_pushes;
 use crate::detect::vertices;
 use crate::error::Fault;
@@ -146,10 +147,9 @@ impl World {
     fn report_fault(&mut self, body: usize) {
         let (frame, motion) = (self.bodies.frame[body], self.bodies.motion[body]);
         self.treated = self.listed.len();
-        let what = format!(
-            "x = {}, z = {}, vx = {}, vz = {}, spin = {}",
-            frame.o.x, frame.o.y, motion.v.x, motion.v.y, motion.omega
-        );
+        let o = frame.o + self.plan.origin;
+        let [x, z, vx, vz, spin] = [o.x, o.y, motion.v.x, motion.v.y, motion.omega].map(shown);
+        let what = format!("x = {x}, z = {z}, vx = {vx}, vz = {vz}, spin = {spin}");
         let name = self.name(BodyId(body as u32)).to_owned();
         self.fault.get_or_insert(Fault { body: name, iteration: self.iteration, what });
     }
