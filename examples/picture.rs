@@ -1,6 +1,6 @@
 //! Draws a run as one picture: every body's rectangles at regular moments, the last one in full colour.
 //!
-//!     cargo run --release --example picture -- scenarios/blades/spinning_blade.rhai docs/spinning_blade.svg
+//!     cargo run --release --example picture -- scenarios/blades/spinning_blade.rhai 400 docs/spinning_blade.svg
 
 use std::error::Error;
 use std::fmt::Write as _;
@@ -8,7 +8,7 @@ use std::path::Path;
 
 use choque_engine::scene::Kind;
 use choque_engine::{BodyId, Scene, Vec2, World, load};
-use choque_scripting::{Options, Scenario, Step};
+use choque_scripting::{Options, Overrides, Scenario, Step};
 
 /// Moments drawn besides the last.
 const MOMENTS: u64 = 14;
@@ -18,10 +18,11 @@ const COLOURS: [&str; 6] = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9
 
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let [script, picture] = arguments.as_slice() else {
-        return Err("usage: picture SCRIPT.rhai PICTURE.svg".into());
+    let [script, steps, picture] = arguments.as_slice() else {
+        return Err("usage: picture SCRIPT.rhai STEPS PICTURE.svg".into());
     };
-    let scenario = Scenario::load(Path::new(script), &Options::default())?;
+    let overrides = Overrides { steps: Some(steps.parse()?), ..Overrides::default() };
+    let scenario = Scenario::load(Path::new(script), &Options { overrides, ..Options::default() })?;
     let scene = scenario.scene().clone();
     let mut run = scenario.start()?;
     let mut canvas = Canvas::new(&scene);

@@ -1,0 +1,187 @@
+//! A scenario being run, callbacks and expectations included.
+
+use std::cell::{Ref, RefCell};
+use std::path::{Path, PathBuf};
+use std::rc::Rc;
+
+use choque_engine::{Fault, Hit, Scene, World};
+use rhai::Dynamic;
+
+use crate::callbacks::{ON_COLLISION, ON_STEP, STOP_WHEN};
+use crate::error::{Complaint, Diagnostic};
+use crate::expectation::{Expectation, Failure, When, judge};
+use crate::handles;
+use crate::number::must_be;
+use crate::plain;
+use crate::script::Script;
+
+/// A scenario being run.
+pub struct Run {
+    world: Rc<RefCell<World>>,
+    steps: u64,
+    is_done: bool,
+    /// The exchanges of the last iteration.
+    hits: Vec<Hit>,
+    source: Source,
+}
+
+enum Source {
+    Plain { file: PathBuf, text: String },
+    Script(Box<Scripted>),
+}
+
+struct Scripted {
+    script: Script,
+    /// Of each expectation of the script, how it failed, if it has.
+    failures: Vec<Option<Failure>>,
+    scene: Scene,
+}
+
+/// Whether a run goes on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Step {
+    /// There are iterations left.
+    Going,
+    /// All iterations were made, or `stop_when` said so.
+    Done,
+}
+
+impl Run {
+    pub(crate) fn plain(world: World, steps: u64, file: &Path, text: &str) -> Self {
+        let source = Source::Plain { file: file.to_owned(), text: text.to_owned() };
+        Run { world: Rc::new(RefCell::new(world)), steps, is_done: steps == 0, hits: Vec::new(), source }
+    }
+
+    pub(crate) fn scripted(script: Script, world: World, scene: &Scene) -> Self {
+        let world = Rc::new(RefCell::new(world));
+        script.enter(world.clone());
+        let failures = script.pending.iter().map(|_| None).collect();
+        let steps = scene.settings.steps;
+        let source = Source::Script(Box::new(Scripted { script, failures, scene: scene.clone() }));
+        Run { world, steps, is_done: steps == 0, hits: Vec::new(), source }
+    }
+
+    /// The world as it stands.
+    #[must_use]
+    pub fn world(&self) -> Ref<'_, World> {
+        self.world.borrow()
+    }
+
+    /// The exchanges of the last iteration, in order.
+    #[must_use]
+    pub fn hits(&self) -> &[Hit] {
+        &self.hits
+    }
+
+    /// One iteration: `on_step`, advance, an `on_collision` after each exchange, `always`, `stop_when`.
+    /// Makes none once the run is done.
+    ///
+    /// # Errors
+    /// An error in a callback; a body that left the finite numbers.
+    pub fn step(&mut self) -> Result<Step, Diagnostic> {
+        if self.is_done {
+            return Ok(Step::Done);
+        }
+        self.hits.clear();
+        let stop = match &mut self.source {
+            Source::Plain { .. } => {
+                iterate_alone(&self.world, &mut self.hits);
+                false
+            }
+            Source::Script(scripted) => scripted.iterate(&self.world, &mut self.hits)?,
+        };
+        let world = self.world.borrow();
+        if let Some(fault) = world.fault() {
+            return Err(self.source.blame(fault));
+        }
+        self.is_done = stop || world.iteration() >= self.steps;
+        Ok(if self.is_done { Step::Done } else { Step::Going })
+    }
+
+    /// Judges every `expect` on the world as it stands, and tells of all expectations in the script's order.
+    ///
+    /// # Errors
+    /// An error in an expectation.
+    pub fn conclude(&mut self) -> Result<Vec<Expectation>, Diagnostic> {
+        let Source::Script(scripted) = &mut self.source else { return Ok(Vec::new()) };
+        scripted.judge(When::AtTheEnd)?;
+        let told = scripted.script.pending.iter().zip(&scripted.failures);
+        Ok(told.map(|(pending, failure)| Expectation::new(&pending.text, failure.as_ref())).collect())
+    }
+}
+
+impl Scripted {
+    /// One iteration; gives whether the script wants to stop after it.
+    fn iterate(&mut self, world: &RefCell<World>, hits: &mut Vec<Hit>) -> Result<bool, Diagnostic> {
+        let callbacks = self.script.callbacks;
+        if callbacks.on_step {
+            drop(self.script.call(ON_STEP, &mut [Dynamic::from(handles::World)])?);
+        }
+        if callbacks.on_collision {
+            world.borrow_mut().begin();
+            while let Some(hit) = next_hit(world) {
+                hits.push(hit);
+                let hit = Dynamic::from(handles::Hit::from(hit));
+                drop(self.script.call(ON_COLLISION, &mut [Dynamic::from(handles::World), hit])?);
+            }
+            world.borrow_mut().finish();
+        } else {
+            iterate_alone(world, hits);
+        }
+        if world.borrow().fault().is_some() {
+            return Ok(true);
+        }
+        if callbacks.always > 0 {
+            self.judge(When::AfterEveryIteration)?;
+        }
+        Ok(callbacks.stop_when && self.wants_to_stop()?)
+    }
+
+    fn wants_to_stop(&self) -> Result<bool, Diagnostic> {
+        let answer = self.script.call(STOP_WHEN, &mut [Dynamic::from(handles::World)])?;
+        answer.as_bool().map_err(|_| {
+            let complaint = must_be(&format!("what {STOP_WHEN} gives"), "true or false", &answer);
+            self.script.complain_of_callback(STOP_WHEN, complaint)
+        })
+    }
+
+    /// Judges the expectations whose time it is; one that has failed stays so.
+    fn judge(&mut self, when: When) -> Result<(), Diagnostic> {
+        for (pending, failure) in self.script.pending.iter().zip(&mut self.failures) {
+            let is_judged_again = when == When::AtTheEnd || failure.is_none();
+            if pending.when == when && is_judged_again {
+                *failure = judge(&self.script, pending)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The next exchange; none after a body has left the finite numbers, for there is nothing to tell of it.
+fn next_hit(world: &RefCell<World>) -> Option<Hit> {
+    let mut world = world.borrow_mut();
+    let hit = world.treat_next()?;
+    world.fault().is_none().then_some(hit)
+}
+
+/// A whole iteration that no callback interrupts.
+fn iterate_alone(world: &RefCell<World>, hits: &mut Vec<Hit>) {
+    let mut world = world.borrow_mut();
+    world.begin();
+    hits.extend(std::iter::from_fn(|| world.treat_next()));
+    world.finish();
+}
+
+impl Source {
+    /// A body that left the finite numbers, shown where it was made.
+    fn blame(&self, fault: &Fault) -> Diagnostic {
+        match self {
+            Source::Plain { file, text } => plain::complain_of_body(file, text, Some(&fault.body), fault.to_string()),
+            Source::Script(scripted) => {
+                let complaint = Complaint::new(fault.to_string());
+                scripted.script.complain_of_body(&scripted.scene, Some(&fault.body), complaint)
+            }
+        }
+        .with_hint(Some("look for a huge velocity, mass or force; `always` can tell when it begins".to_owned()))
+    }
+}

@@ -1,0 +1,128 @@
+//! A scenario: a script or a plain scene, ready to run as often as one likes.
+
+use std::cell::RefCell;
+use std::path::{Path, PathBuf};
+
+use choque_engine::{Scene, SceneError, World, check};
+
+use crate::callbacks::Callbacks;
+use crate::error::{Complaint, Diagnostic};
+use crate::library::read_text;
+use crate::options::Options;
+use crate::plain;
+use crate::run::Run;
+use crate::script::Script;
+
+/// A scenario that was read: the scene it describes, and the callbacks it has.
+pub struct Scenario {
+    file: PathBuf,
+    text: String,
+    options: Options,
+    name: String,
+    scene: Scene,
+    callbacks: Callbacks,
+    source: Source,
+}
+
+enum Source {
+    /// A `.ron` scene.
+    Plain,
+    /// A `.rhai` script, ready for the first run; later runs make it ready again, so that none sees what
+    /// another has done to the variables of a closure or to the generator.
+    Script(Box<RefCell<Option<Script>>>),
+}
+
+impl Scenario {
+    /// Reads a `.rhai` script and runs its main part, or reads a `.ron` scene.
+    ///
+    /// # Errors
+    /// What is wrong with the file, the script, the scene, or with a `--set` or an override.
+    pub fn load(file: &Path, options: &Options) -> Result<Scenario, Diagnostic> {
+        check_options(options)?;
+        let is_script = match file.extension().and_then(|extension| extension.to_str()) {
+            Some("rhai") => true,
+            Some("ron") => false,
+            _ => return Err(unknown_kind(file)),
+        };
+        let text = read_text(file, file)?;
+        let (source, scene, callbacks) = if is_script {
+            let (script, scene) = Script::prepare(file, &text, options)?;
+            let callbacks = script.callbacks;
+            (Source::Script(Box::new(RefCell::new(Some(script)))), scene, callbacks)
+        } else {
+            (Source::Plain, plain::read(file, &text, options)?, Callbacks::default())
+        };
+        let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        Ok(Scenario { file: file.to_owned(), text, options: options.clone(), name, scene, callbacks, source })
+    }
+
+    /// The scene, with every `--set` and override applied.
+    #[must_use]
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// The file's name without its extension.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The title the script gives, or else the name.
+    #[must_use]
+    pub fn title(&self) -> String {
+        if self.scene.title.is_empty() { self.name.clone() } else { self.scene.title.clone() }
+    }
+
+    /// Which callbacks and expectations it has.
+    #[must_use]
+    pub fn callbacks(&self) -> Callbacks {
+        self.callbacks
+    }
+
+    /// A run from the start; several runs of one scenario know nothing of each other.
+    ///
+    /// # Errors
+    /// A scene that cannot run, shown at the line where the body in question was made.
+    pub fn start(&self) -> Result<Run, Diagnostic> {
+        match &self.source {
+            Source::Plain => {
+                let world = World::new(&self.scene).map_err(|error| plain::complain(&self.file, &self.text, &error))?;
+                Ok(Run::plain(world, self.scene.settings.steps, &self.file, &self.text))
+            }
+            Source::Script(ready) => {
+                let script = match ready.take() {
+                    Some(script) => script,
+                    None => Script::prepare(&self.file, &self.text, &self.options)?.0,
+                };
+                match World::new(&self.scene) {
+                    Ok(world) => Ok(Run::scripted(script, world, &self.scene)),
+                    Err(error) => Err(self.refused(&script, &error)),
+                }
+            }
+        }
+    }
+
+    fn refused(&self, script: &Script, error: &SceneError) -> Diagnostic {
+        script.complain_of_body(&self.scene, error.body(), Complaint::new(error.to_string()))
+    }
+}
+
+fn unknown_kind(file: &Path) -> Diagnostic {
+    Diagnostic::new(format!("{} is neither a .rhai script nor a .ron scene", file.display()))
+        .in_file(file)
+        .with_hint(Some("a scenario's file name ends in .rhai or .ron".to_owned()))
+}
+
+/// What is wrong whatever the file says.
+fn check_options(options: &Options) -> Result<(), Diagnostic> {
+    if let Some(time_step) = options.overrides.time_step {
+        check::positive("--time-step", time_step).map_err(|bad| Diagnostic::new(bad.to_string()))?;
+    }
+    match &options.library {
+        Some(folder) if !folder.is_dir() => {
+            Err(Diagnostic::new(format!("--library {}: there is no such folder", folder.display())))
+        }
+        _ => Ok(()),
+    }
+}

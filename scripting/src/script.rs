@@ -1,0 +1,139 @@
+//! A script made ready: read, compiled, its main part run, so that a scene and callbacks are there.
+
+use std::cell::RefCell;
+use std::path::Path;
+use std::rc::Rc;
+
+use choque_engine::{Scene, World};
+use rhai::{AST, Dynamic, Engine, GlobalRuntimeState, Module, NativeCallContext, Position, Scope};
+
+use crate::blame::Blame;
+use crate::callbacks::Callbacks;
+use crate::clock::Clock;
+use crate::error::{Complaint, Diagnostic};
+use crate::expectation::Pending;
+use crate::library::{Found, Library};
+use crate::modules::Resolver;
+use crate::options::Options;
+use crate::params::Params;
+use crate::sandbox;
+use crate::session::{Phase, RhaiResultOf, Running, Session, Site};
+
+/// A script whose main part has run.
+pub(crate) struct Script {
+    engine: Engine,
+    clock: Clock,
+    library: Rc<Library>,
+    /// The script's name, as errors show it.
+    name: String,
+    pub(crate) session: Rc<RefCell<Session>>,
+    pub(crate) callbacks: Callbacks,
+    pub(crate) pending: Vec<Pending>,
+    /// Where callbacks run: the script's functions, with its imports and constants around them.
+    surroundings: GlobalRuntimeState,
+    /// Where each body was made.
+    sites: Vec<Site>,
+}
+
+impl Script {
+    /// Compiles a script and runs its main part; gives the scene it makes.
+    pub(crate) fn prepare(file: &Path, text: &str, options: &Options) -> Result<(Script, Scene), Diagnostic> {
+        let library = Rc::new(Library::new(file, options.library.as_deref()));
+        let name = file.display().to_string();
+        library.keep(&name, text);
+        let params = Params::new(&options.set).map_err(|complaint| Diagnostic::of(complaint).in_file(file))?;
+        let session = Rc::new(RefCell::new(Session::new(params, library.clone())));
+        let clock = Clock::new(options.script_timeout);
+        let resolver = Resolver::new(library.clone(), Found::itself(file));
+        let engine = sandbox::engine(&session, resolver, &clock, &options.output);
+        let blame = Blame { engine: &engine, library: &library, script: &name };
+
+        let mut ast = sandbox::compile(&engine, text).map_err(|error| blame.syntax_error(error))?;
+        ast.set_source(&name);
+        let callbacks = Callbacks::of(&ast)
+            .map_err(|(function, complaint)| blame.complaint_at(complaint, &blame.definition(&function)))?;
+        clock.restart();
+        let outcome = run_main_part(&engine, &ast);
+        // Taken out even when the script failed: expectations hold on to the session, and would keep it for ever.
+        let pending = std::mem::take(&mut session.borrow_mut().pending);
+        let surroundings = outcome.map_err(|error| blame.error(&error, None))?;
+        let finished = finish(&mut session.borrow_mut(), options);
+        let (scene, sites) = finished.map_err(|complaint| blame.complaint_of_script(complaint))?;
+        let callbacks = callbacks.counting(&pending);
+        Ok((Script { engine, clock, library, name, session, callbacks, pending, surroundings, sites }, scene))
+    }
+
+    /// Lets the world begin: from now on words see it instead of the scene.
+    pub(crate) fn enter(&self, world: Rc<RefCell<World>>) {
+        self.session.borrow_mut().phase = Phase::Running(Running::new(world));
+    }
+
+    /// Calls a callback of the script.
+    pub(crate) fn call(&self, callback: &str, arguments: &mut [Dynamic]) -> Result<Dynamic, Diagnostic> {
+        self.clock.restart();
+        let context = self.context(callback, &self.surroundings);
+        let mut arguments: Vec<&mut Dynamic> = arguments.iter_mut().collect();
+        context
+            .call_fn_raw(callback, false, false, &mut arguments)
+            .map_err(|error| self.blame().error(&error, Some(&self.blame().definition(callback))))
+    }
+
+    /// Asks an expectation about the world.
+    pub(crate) fn ask(&self, pending: &Pending, world: Dynamic) -> Result<Dynamic, Diagnostic> {
+        self.clock.restart();
+        let context = self.context(pending.judge.fn_name(), &pending.surroundings);
+        pending.judge.call_raw(&context, None, [world]).map_err(|error| {
+            self.blame().error(&error, Some(&pending.site)).and_note(format!("in {}", pending.title()))
+        })
+    }
+
+    /// A complaint about an expectation.
+    pub(crate) fn complain_of(&self, pending: &Pending, complaint: Complaint) -> Diagnostic {
+        self.blame().complaint_at(complaint, &pending.site)
+    }
+
+    /// A complaint about a callback.
+    pub(crate) fn complain_of_callback(&self, callback: &str, complaint: Complaint) -> Diagnostic {
+        self.blame().complaint_at(complaint, &self.blame().definition(callback))
+    }
+
+    /// A complaint about a body, shown where it was made; without one, about the script.
+    pub(crate) fn complain_of_body(&self, scene: &Scene, body: Option<&str>, complaint: Complaint) -> Diagnostic {
+        let index = body.and_then(|name| scene.bodies.iter().position(|body| body.name == name));
+        match index.and_then(|index| self.sites.get(index)) {
+            Some(site) => self.blame().complaint_at(complaint, site),
+            None => self.blame().complaint_of_script(complaint),
+        }
+    }
+
+    fn blame(&self) -> Blame<'_> {
+        Blame { engine: &self.engine, library: &self.library, script: &self.name }
+    }
+
+    fn context<'a>(&'a self, function: &'a str, surroundings: &'a GlobalRuntimeState) -> NativeCallContext<'a> {
+        NativeCallContext::new_with_all_fields(&self.engine, function, None, surroundings, Position::NONE)
+    }
+}
+
+/// Runs the main part, and keeps what callbacks will see: not its variables, but its functions, imports and
+/// constants.
+fn run_main_part(engine: &Engine, ast: &AST) -> RhaiResultOf<GlobalRuntimeState> {
+    let global = &mut engine.new_global_runtime_state();
+    let module = Module::eval_ast_as_new_raw(engine, &mut Scope::new(), global, ast)?;
+    let mut surroundings = engine.new_global_runtime_state();
+    surroundings.source = ast.source().map(Into::into);
+    surroundings.lib.push(module.into());
+    Ok(surroundings)
+}
+
+/// The scene, with everything said from outside applied, and where its bodies were made.
+fn finish(session: &mut Session, options: &Options) -> Result<(Scene, Vec<Site>), Complaint> {
+    if let Some(complaint) = session.params.unanswered() {
+        return Err(complaint);
+    }
+    let mut draft = std::mem::take(session.draft("")?);
+    draft.scene.params = session.params.record();
+    session.params.apply_to(&mut draft.scene.settings);
+    options.overrides.apply_to(&mut draft.scene.settings);
+    Ok((draft.scene, draft.sites))
+}

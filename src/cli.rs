@@ -1,0 +1,172 @@
+//! The calls the command understands, and what each is handed to.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{CommandFactory, Parser, Subcommand, ValueEnum};
+use clap_complete::Shell;
+
+use crate::arguments::ScenarioArguments;
+use crate::{Error, Verdict, check, explain, export, init, run, terminal, words};
+
+const EXAMPLES: &str = "\
+Examples:
+  choque init my_game                               lay out a project with a first scenario
+  choque run scenarios/first.rhai                   run it and print what came of it
+  choque run first.rhai --set push=12 --steps 1200  … with other numbers
+  choque run first.rhai --format json | jq .digest  … for another program
+  choque check scenarios/*.rhai                     what is wrong, and what will not do what it seems
+  choque words rect                                 what a word means
+
+Exit codes: 0 ran and every expectation holds, 1 an expectation failed, 2 the input or the call is wrong.";
+
+/// Rectangle collisions for game designers: scenarios are scripts, results are the same bits everywhere.
+#[derive(Debug, Parser)]
+#[command(name = "choque", version, about, after_help = EXAMPLES, arg_required_else_help = true)]
+struct Cli {
+    #[command(subcommand)]
+    call: Call,
+}
+
+#[derive(Debug, Subcommand)]
+enum Call {
+    /// Run a scenario and print a summary
+    #[command(after_help = "\
+Examples:
+  choque run scenarios/blades/spinning_blade.rhai
+  choque run pile.rhai --time-step 1/240 --steps 2400 --set mu_l=0.5
+  choque run pile.rhai --format json > result.json")]
+    Run(RunArguments),
+    /// Compile and validate scenarios; warn where the physics will not do what the script hopes
+    #[command(after_help = "Examples:\n  choque check scenarios/*.rhai scenarios/*/*.rhai")]
+    Check {
+        /// Scenarios: `.rhai` scripts or `.ron` scenes
+        #[arg(value_name = "FILE", required = true)]
+        files: Vec<PathBuf>,
+        #[command(flatten)]
+        scenario: ScenarioArguments,
+    },
+    /// Say what a scene needs, what is therefore modelled, what is left out, and where the time goes
+    Explain {
+        /// A `.rhai` script or a `.ron` scene
+        file: PathBuf,
+        #[command(flatten)]
+        scenario: ScenarioArguments,
+    },
+    /// Write a scenario's scene as plain data, without callbacks
+    #[command(after_help = "\
+Examples:
+  choque export scenarios/first.rhai -o first.ron
+  choque run first.ron")]
+    Export {
+        /// A `.rhai` script or a `.ron` scene
+        file: PathBuf,
+        /// Where to; `-` or nothing is standard output
+        #[arg(short, long, value_name = "SCENE.ron")]
+        output: Option<PathBuf>,
+        #[command(flatten)]
+        scenario: ScenarioArguments,
+    },
+    /// Print every word of a script with its documentation
+    Words {
+        /// One word, or a part of some
+        name: Option<String>,
+        /// Write `.d.rhai` files for editors into this folder instead
+        #[arg(long, value_name = "DIR")]
+        definitions: Option<PathBuf>,
+    },
+    /// Lay out a project: a first scenario, and a test that pins it
+    #[command(after_help = "\
+Examples:
+  choque init my_game && cd my_game && cargo test")]
+    Init {
+        /// The project's folder; made when it does not exist
+        #[arg(value_name = "DIR")]
+        directory: PathBuf,
+        /// Take `choque` from this folder instead of the registry
+        #[arg(long, value_name = "PATH")]
+        choque_path: Option<PathBuf>,
+    },
+    /// Print completions for a shell
+    Completions {
+        /// Which shell
+        shell: Shell,
+    },
+}
+
+/// What `run` is given.
+#[derive(Clone, Debug, clap::Args)]
+pub struct RunArguments {
+    /// A `.rhai` script or a `.ron` scene
+    pub file: PathBuf,
+    /// How the result is printed: json and ron go to standard output, text to standard error
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    pub format: Format,
+    /// Print the whole plan and the counted work too
+    #[arg(short, long)]
+    pub verbose: bool,
+    /// Overrides and folders.
+    #[command(flatten)]
+    pub scenario: ScenarioArguments,
+}
+
+/// How a result is printed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Format {
+    /// For people
+    Text,
+    /// One JSON object
+    Json,
+    /// The same data as RON
+    Ron,
+}
+
+/// The whole command: reads the arguments of the process, does what they ask, says what went wrong.
+#[must_use]
+pub fn main() -> ExitCode {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(usage) => {
+            let _ = usage.print(); // a closed pipe is no reason for another message
+            return if usage.use_stderr() { Verdict::BadInput.into() } else { ExitCode::SUCCESS };
+        }
+    };
+    match cli.call.carry_out() {
+        Ok(verdict) => verdict.into(),
+        Err(error) => {
+            terminal::tell_error(&error);
+            Verdict::BadInput.into()
+        }
+    }
+}
+
+impl Call {
+    fn carry_out(&self) -> Result<Verdict, Error> {
+        match self {
+            Call::Run(arguments) => run::run(arguments),
+            Call::Check { files, scenario } => check::check(files, &scenario.options()),
+            Call::Explain { file, scenario } => explain::explain(file, &scenario.options()),
+            Call::Export { file, output, scenario } => export::export(file, output.as_deref(), &scenario.options()),
+            Call::Words { name, definitions } => words::words(name.as_deref(), definitions.as_deref()),
+            Call::Init { directory, choque_path } => init::init(directory, choque_path.as_deref()),
+            Call::Completions { shell } => completions(*shell),
+        }
+    }
+}
+
+fn completions(shell: Shell) -> Result<Verdict, Error> {
+    let mut script = Vec::new();
+    clap_complete::generate(shell, &mut Cli::command(), "choque", &mut script);
+    terminal::answer(&String::from_utf8_lossy(&script))?;
+    Ok(Verdict::Holds)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_calls_are_consistent() {
+        Cli::command().debug_assert();
+    }
+}

@@ -1,0 +1,35 @@
+//! `choque`: a command that runs, checks and explains rectangle collision scenarios, and a harness that pins them.
+//!
+//! | what | file |
+//! |---|---|
+//! | calls and flags | [`cli`], [`arguments`] |
+//! | a scenario played to its end, and what is told of it | [`play`], [`report`], [`readings`], [`notable`] |
+//! | what each call does | [`run`], [`check`], [`explain`], [`export`], [`words`], [`init`] |
+//! | how it is printed | [`output`], [`terminal`], [`progress`], [`clock`] |
+//! | one test per scenario, pinned by a snapshot | [`harness`] |
+//!
+//! The physics is `choque-engine`'s, the language `choque-scripting`'s; here are files, clocks and terminals only.
+
+pub mod arguments;
+pub mod check;
+pub mod cli;
+pub mod clock;
+pub mod error;
+pub mod explain;
+pub mod export;
+pub mod harness;
+pub mod init;
+pub mod notable;
+pub mod output;
+pub mod play;
+pub mod progress;
+pub mod readings;
+pub mod report;
+pub mod run;
+pub mod terminal;
+pub mod words;
+
+pub use error::{Error, Verdict};
+// For `harness::main!`, which asserts from the crate it is used in.
+#[doc(hidden)]
+pub use insta;

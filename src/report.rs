@@ -1,0 +1,147 @@
+//! What a run came to, as data: the object that `run --format json` prints.
+
+use choque_engine::{Work, World};
+use choque_scripting::{Expectation, Scenario};
+use serde::{Deserialize, Serialize};
+
+use crate::readings::Readings;
+
+/// The outcome of a run. The order of the fields is the order in the output.
+///
+/// Numbers that are not finite (an energy too large for f64) are `null` in JSON.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Report {
+    /// The file's stem.
+    pub scenario: String,
+    /// What the script calls itself, or the file's stem.
+    pub title: String,
+    /// Length of one iteration \[s\].
+    pub time_step: f64,
+    /// Iterations made: those asked for, or fewer when `stop_when` ended the run.
+    pub steps: u64,
+    /// Time at the end \[s\].
+    pub time: f64,
+    /// Exchanges.
+    pub collisions: u64,
+    /// Of the mobile bodies \[J\].
+    pub kinetic_energy: f64,
+    /// Of the mobile bodies, (x, z) \[kg·m/s\].
+    pub momentum: [f64; 2],
+    /// Of the mobile bodies about the world's origin \[kg·m²/s\].
+    pub angular_momentum: f64,
+    /// Deepest overlap at the end \[m\].
+    pub deepest: f64,
+    /// 16 hexadecimal digits over every bit of the final state.
+    pub digest: String,
+    /// Every body, in order of creation.
+    pub bodies: Vec<BodyReport>,
+    /// What the script expected, and whether it held.
+    pub expectations: Vec<Judgement>,
+    /// Counted work.
+    pub work: Work,
+}
+
+/// Where a body is and how it moves, in metres, seconds, radians, kilograms.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct BodyReport {
+    /// Its name.
+    pub name: String,
+    /// `mobile` or `fixed`.
+    pub kind: &'static str,
+    /// Its centre O.
+    pub x: f64,
+    /// Its centre O.
+    pub z: f64,
+    /// In (−π, π].
+    pub angle: f64,
+    /// Velocity of its centre.
+    pub vx: f64,
+    /// Velocity of its centre.
+    pub vz: f64,
+    /// Spin, +X towards +Z.
+    pub spin: f64,
+    /// Mass.
+    pub mass: f64,
+}
+
+/// An expectation as it was judged.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Judgement {
+    /// What the script says.
+    pub text: String,
+    /// Whether it held.
+    pub held: bool,
+    /// The first iteration it did not hold in.
+    pub first_failure: Option<u64>,
+    /// What was read to judge it; left out when it held.
+    #[serde(default, skip_serializing_if = "Readings::is_empty")]
+    pub numbers: Readings,
+}
+
+impl Report {
+    /// What the world of a scenario looks like at the end of its run.
+    #[must_use]
+    pub fn new(scenario: &Scenario, world: &World, expectations: Vec<Expectation>) -> Self {
+        let momentum = world.momentum();
+        Report {
+            scenario: scenario.name().to_owned(),
+            title: scenario.title(),
+            time_step: world.plan().time_step,
+            steps: world.iteration(),
+            time: positive_zero(world.time()),
+            collisions: world.collisions(),
+            kinetic_energy: positive_zero(world.kinetic_energy()),
+            momentum: [positive_zero(momentum.x), positive_zero(momentum.y)],
+            angular_momentum: positive_zero(world.angular_momentum()),
+            deepest: positive_zero(world.deepest()),
+            digest: hexadecimal(world.digest()),
+            bodies: bodies(world),
+            expectations: expectations.into_iter().map(Judgement::from).collect(),
+            work: *world.work(),
+        }
+    }
+
+    /// Whether every expectation held.
+    #[must_use]
+    pub fn holds(&self) -> bool {
+        self.expectations.iter().all(|judgement| judgement.held)
+    }
+}
+
+fn bodies(world: &World) -> Vec<BodyReport> {
+    let body = |id| {
+        let (position, velocity) = (world.position(id), world.velocity(id));
+        BodyReport {
+            name: world.name(id).to_owned(),
+            kind: world.kind(id).word(),
+            x: positive_zero(position.x),
+            z: positive_zero(position.y),
+            angle: positive_zero(world.angle(id)),
+            vx: positive_zero(velocity.x),
+            vz: positive_zero(velocity.y),
+            spin: positive_zero(world.spin(id)),
+            mass: world.mass(id),
+        }
+    };
+    world.ids().map(body).collect()
+}
+
+impl From<Expectation> for Judgement {
+    fn from(expectation: Expectation) -> Self {
+        let Expectation { text, held, first_failure, numbers } = expectation;
+        Judgement { text, held, first_failure, numbers: numbers.into_iter().collect() }
+    }
+}
+
+/// The number itself, but 0 for −0: nobody needs to read a sign there.
+#[must_use]
+pub fn positive_zero(number: f64) -> f64 {
+    number + 0.0
+}
+
+/// A digest as it is written everywhere.
+#[must_use]
+pub fn hexadecimal(digest: u64) -> String {
+    format!("{digest:016x}")
+}

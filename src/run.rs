@@ -1,0 +1,61 @@
+//! `choque run`: plays a scenario and tells what came of it.
+
+use choque_engine::{Hit, World, note};
+use choque_scripting::Scenario;
+
+use crate::cli::{Format, RunArguments};
+use crate::output::{json, ron, text};
+use crate::play::{FirstMeetings, Watch, play};
+use crate::progress::Progress;
+use crate::report::Report;
+use crate::{Error, Verdict, terminal};
+
+/// How many pairs that met the text tells of.
+const MEETINGS: usize = 6;
+
+/// Runs a scenario. Nothing of a result is printed unless the whole run was made.
+///
+/// # Errors
+/// A scenario that cannot be loaded or run; output that cannot be written.
+pub fn run(arguments: &RunArguments) -> Result<Verdict, Error> {
+    let scenario = Scenario::load(&arguments.file, &arguments.scenario.options())?;
+    let mut run = scenario.start()?;
+    tell_notes(&scenario, &run.world());
+    let mut watcher =
+        Watcher { meetings: FirstMeetings::new(MEETINGS), progress: Progress::new(run.world().plan().steps) };
+    let played = play(&mut run, &mut watcher);
+    let Watcher { meetings, progress } = watcher;
+    drop(progress); // clears its line before anything else is printed
+    let expectations = played?;
+    let world = run.world();
+    let report = Report::new(&scenario, &world, expectations);
+    match arguments.format {
+        Format::Text => {
+            let told =
+                text::Told { scene: scenario.scene(), world: &world, report: &report, meetings: &meetings.meetings };
+            terminal::tell(&text::summary(&told, arguments.verbose));
+        }
+        Format::Json => terminal::answer(&json::object(&report)?)?,
+        Format::Ron => terminal::answer(&ron::report(&report)?)?,
+    }
+    Ok(if report.holds() { Verdict::Holds } else { Verdict::ExpectationFailed })
+}
+
+struct Watcher {
+    meetings: FirstMeetings,
+    progress: Progress,
+}
+
+impl Watch for Watcher {
+    fn iteration(&mut self, world: &World, hits: &[Hit]) {
+        self.meetings.iteration(world, hits);
+        self.progress.reached(world.iteration());
+    }
+}
+
+/// Warns where the physics will not do what the scene seems to hope.
+fn tell_notes(scenario: &Scenario, world: &World) {
+    for note in note::review(scenario.scene(), world) {
+        terminal::tell(&format!("{}: {note}\n", terminal::styled(terminal::WARNING, "warning")));
+    }
+}

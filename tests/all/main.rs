@@ -1,0 +1,9 @@
+//! Everything but the scenarios themselves, in one binary: the command, the harness, a project laid out by `init`,
+//! and what must hold of every scene.
+
+mod command;
+mod harness;
+mod metamorphic;
+mod project;
+mod snapshots;
+mod support;
