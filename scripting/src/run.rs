@@ -1,6 +1,7 @@
 //! A scenario being run, callbacks and expectations included.
 
 use std::cell::{Ref, RefCell};
+use std::fmt;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
@@ -107,6 +108,13 @@ impl Run {
         scripted.judge(When::AtTheEnd)?;
         let told = scripted.script.pending.iter().zip(&scripted.failures);
         Ok(told.map(|(pending, failure)| Expectation::new(&pending.text, failure.as_ref())).collect())
+    }
+}
+
+impl fmt::Debug for Run {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let world = self.world.borrow();
+        f.debug_struct("Run").field("iteration", &world.iteration()).field("steps", &self.steps).finish_non_exhaustive()
     }
 }
 

@@ -1,6 +1,7 @@
 //! A scenario: a script or a plain scene, ready to run as often as one likes.
 
 use std::cell::RefCell;
+use std::fmt;
 use std::path::{Path, PathBuf};
 
 use choque_engine::{Scene, SceneError, World, check};
@@ -105,6 +106,12 @@ impl Scenario {
 
     fn refused(&self, script: &Script, error: &SceneError) -> Diagnostic {
         script.complain_of_body(&self.scene, error.body(), Complaint::new(error.to_string()))
+    }
+}
+
+impl fmt::Debug for Scenario {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Scenario").field("file", &self.file).field("scene", &self.scene).finish_non_exhaustive()
     }
 }
 

@@ -22,11 +22,9 @@ fn an_iteration_calls_its_callbacks_in_order() {
         fixed("wall").rect(1, 1);
         fn on_step(world) { print(`step ${world.iteration} ${world.time}`); }
         fn on_collision(world, hit) { print(`hit ${hit.iteration} ${world.iteration} ${world.time} ${hit.a.name} ${hit.b.name}`); }
-        always("", |world| true);
+        always("told", |world| true);
         fn stop_when(world) { print(`stop? ${world.iteration} ${world.time}`); world.iteration == 2 }
-        "#
-        .replace("always(\"\"", "always(\"told\"")
-        .as_str(),
+        "#,
     );
     assert_eq!(
         lines,

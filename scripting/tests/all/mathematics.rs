@@ -63,7 +63,7 @@ fn functions_are_those_of_libm_for_whole_numbers_too() {
         ("round", libm::round),
     ];
     for (name, function) in functions {
-        for number in [1.0, 2.0, 3.7, 12345.678] {
+        for number in [1.0, 2.0, 3.7, 55.5] {
             check(&format!("{name}({number:?}) == {:?}", function(number)), "true");
         }
         check(&format!("{name}(3) == {:?}", function(3.0)), "true");
