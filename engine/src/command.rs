@@ -1,8 +1,11 @@
 //! Commands (§2.1, step 1): what the user of a world may do to its bodies between iterations.
 
 use crate::area::Vec2;
-use crate::bodies::{Bodies, Motion};
+use crate::bodies::{Bodies, Motion, Role};
+use crate::check;
+use crate::error::CommandError;
 use crate::forces::Flight;
+use crate::world::{BodyId, World};
 
 /// Forces on one body, gathered until the next advance.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,5 +31,102 @@ pub fn apply_pushes(bodies: &mut Bodies, pushes: &[Push], linear: Flight, angula
         }
         let Motion { v, omega } = bodies.motion[i];
         bodies.motion[i] = Motion { v: v + a * linear.reach, omega: omega + alpha * angular.reach };
+    }
+}
+
+/// Commands: what a user of the world may do between iterations, or after an exchange.
+impl World {
+    /// Puts a body's centre somewhere.
+    ///
+    /// # Errors
+    /// A coordinate that is not finite.
+    pub fn set_position(&mut self, id: BodyId, position: Vec2) -> Result<(), CommandError> {
+        self.finite(id, "x", position.x)?;
+        self.finite(id, "z", position.y)?;
+        self.bodies.place(id.index(), position - self.plan.origin);
+        Ok(())
+    }
+
+    /// Turns a body to an angle \[rad\].
+    ///
+    /// # Errors
+    /// An angle that is not finite.
+    pub fn set_angle(&mut self, id: BodyId, angle: f64) -> Result<(), CommandError> {
+        self.finite(id, "angle", angle)?;
+        self.bodies.set_angle(id.index(), angle);
+        Ok(())
+    }
+
+    /// Gives a body a velocity \[m/s\]; a fixed body has physics from then on (R9), and its patrol ends.
+    ///
+    /// # Errors
+    /// A component that is not finite.
+    pub fn set_velocity(&mut self, id: BodyId, velocity: Vec2) -> Result<(), CommandError> {
+        self.finite(id, "vx", velocity.x)?;
+        self.finite(id, "vz", velocity.y)?;
+        self.bodies.motion[id.index()].v = velocity;
+        self.give_physics(id);
+        self.movers.end_course(id.index());
+        Ok(())
+    }
+
+    /// Gives a body a spin \[rad/s\]; a fixed body has physics from then on (R9), and its swing ends.
+    ///
+    /// # Errors
+    /// A spin that is not finite.
+    pub fn set_spin(&mut self, id: BodyId, spin: f64) -> Result<(), CommandError> {
+        self.finite(id, "spin", spin)?;
+        self.bodies.motion[id.index()] = Motion { omega: spin, ..self.bodies.motion[id.index()] };
+        self.give_physics(id);
+        self.movers.end_swing(id.index());
+        Ok(())
+    }
+
+    /// A force on a mobile body's centre over the next advance \[N\]; several add up.
+    ///
+    /// # Errors
+    /// A force that is not finite; a fixed body.
+    pub fn push(&mut self, id: BodyId, force: Vec2) -> Result<(), CommandError> {
+        self.finite(id, "push: fx", force.x)?;
+        self.finite(id, "push: fz", force.y)?;
+        self.pushed(id, "push")?.force += force;
+        Ok(())
+    }
+
+    /// A torque on a mobile body over the next advance \[N·m\]; several add up.
+    ///
+    /// # Errors
+    /// A torque that is not finite; a fixed body.
+    pub fn twist(&mut self, id: BodyId, torque: f64) -> Result<(), CommandError> {
+        self.finite(id, "twist: torque", torque)?;
+        self.pushed(id, "twist")?.torque += torque;
+        Ok(())
+    }
+
+    fn pushed(&mut self, id: BodyId, verb: &'static str) -> Result<&mut Push, CommandError> {
+        if !self.bodies.is_mobile(id.index()) {
+            return Err(CommandError::Fixed { body: self.name(id).to_owned(), verb });
+        }
+        self.work.commands += 1;
+        let at = match self.pushes.binary_search_by_key(&id.0, |push| push.body) {
+            Ok(at) => at,
+            Err(at) => {
+                self.pushes.insert(at, Push { body: id.0, force: Vec2::zeros(), torque: 0.0 });
+                at
+            }
+        };
+        Ok(&mut self.pushes[at])
+    }
+
+    fn finite(&self, id: BodyId, what: &str, value: f64) -> Result<(), CommandError> {
+        let named = |number| CommandError::Number { body: self.name(id).to_owned(), number };
+        check::finite(what, value).map(|_| ()).map_err(named)
+    }
+
+    fn give_physics(&mut self, id: BodyId) {
+        if self.bodies.role[id.index()] == Role::Fixed {
+            self.bodies.role[id.index()] = Role::FixedWithPhysics;
+            self.movers.add_fixed(id.0);
+        }
     }
 }

@@ -43,6 +43,7 @@ pub mod broad_phase;
 pub mod check;
 pub mod command;
 pub mod detect;
+mod directory;
 pub mod error;
 pub mod exchange;
 pub mod forces;

@@ -2,12 +2,12 @@
 
 use crate::advance::Movers;
 use crate::area::Vec2;
-use crate::bodies::{Bodies, Motion, Role};
+use crate::bodies::Bodies;
 use crate::broad_phase::BroadPhase;
-use crate::check;
 use crate::command::Push;
 use crate::detect::overlap;
-use crate::error::{CommandError, Fault, SceneError};
+use crate::directory::Directory;
+use crate::error::{Fault, SceneError};
 use crate::load;
 use crate::plan::Plan;
 use crate::scene::{Kind, Scene};
@@ -42,16 +42,7 @@ pub struct World {
     pub(crate) collisions: u64,
     pub(crate) fault: Option<Fault>,
     pub(crate) work: Work,
-    directory: Directory,
-}
-
-/// Names and labels: never read by a step.
-#[derive(Clone, Debug)]
-struct Directory {
-    names: Vec<Box<str>>,
-    /// Bodies in the order of their names, for look-up.
-    by_name: Vec<u32>,
-    tags: Vec<(u32, Box<str>)>,
+    pub(crate) directory: Directory,
 }
 
 impl World {
@@ -148,21 +139,18 @@ impl World {
     /// Its name.
     #[must_use]
     pub fn name(&self, id: BodyId) -> &str {
-        &self.directory.names[id.index()]
+        self.directory.name(id.0)
     }
 
     /// Its labels.
     pub fn tags(&self, id: BodyId) -> impl Iterator<Item = &str> {
-        self.directory.tags.iter().filter(move |(body, _)| *body == id.0).map(|(_, tag)| &**tag)
+        self.directory.tags_of(id.0)
     }
 
     /// The bodies with that label, in order of creation.
     #[must_use]
     pub fn tagged(&self, tag: &str) -> Vec<BodyId> {
-        let mut with_tag: Vec<BodyId> =
-            self.directory.tags.iter().filter(|(_, t)| &**t == tag).map(|(body, _)| BodyId(*body)).collect();
-        with_tag.dedup();
-        with_tag
+        self.directory.tagged(tag).map(BodyId).collect()
     }
 
     /// Mobile or fixed.
@@ -223,118 +211,5 @@ impl World {
             deepest = deepest.max(overlap::between(&self.bodies, i, j));
         });
         deepest
-    }
-}
-
-/// Commands: what a user of the world may do between iterations, or after an exchange.
-impl World {
-    /// Puts a body's centre somewhere.
-    ///
-    /// # Errors
-    /// A coordinate that is not finite.
-    pub fn set_position(&mut self, id: BodyId, position: Vec2) -> Result<(), CommandError> {
-        self.finite(id, "x", position.x)?;
-        self.finite(id, "z", position.y)?;
-        self.bodies.place(id.index(), position - self.plan.origin);
-        Ok(())
-    }
-
-    /// Turns a body to an angle \[rad\].
-    ///
-    /// # Errors
-    /// An angle that is not finite.
-    pub fn set_angle(&mut self, id: BodyId, angle: f64) -> Result<(), CommandError> {
-        self.finite(id, "angle", angle)?;
-        self.bodies.set_angle(id.index(), angle);
-        Ok(())
-    }
-
-    /// Gives a body a velocity \[m/s\]; a fixed body has physics from then on (R9), and its patrol ends.
-    ///
-    /// # Errors
-    /// A component that is not finite.
-    pub fn set_velocity(&mut self, id: BodyId, velocity: Vec2) -> Result<(), CommandError> {
-        self.finite(id, "vx", velocity.x)?;
-        self.finite(id, "vz", velocity.y)?;
-        self.bodies.motion[id.index()].v = velocity;
-        self.give_physics(id);
-        self.movers.end_course(id.index());
-        Ok(())
-    }
-
-    /// Gives a body a spin \[rad/s\]; a fixed body has physics from then on (R9), and its swing ends.
-    ///
-    /// # Errors
-    /// A spin that is not finite.
-    pub fn set_spin(&mut self, id: BodyId, spin: f64) -> Result<(), CommandError> {
-        self.finite(id, "spin", spin)?;
-        self.bodies.motion[id.index()] = Motion { omega: spin, ..self.bodies.motion[id.index()] };
-        self.give_physics(id);
-        self.movers.end_swing(id.index());
-        Ok(())
-    }
-
-    /// A force on a mobile body's centre over the next advance \[N\]; several add up.
-    ///
-    /// # Errors
-    /// A force that is not finite; a fixed body.
-    pub fn push(&mut self, id: BodyId, force: Vec2) -> Result<(), CommandError> {
-        self.finite(id, "push: fx", force.x)?;
-        self.finite(id, "push: fz", force.y)?;
-        self.pushed(id, "push")?.force += force;
-        Ok(())
-    }
-
-    /// A torque on a mobile body over the next advance \[N·m\]; several add up.
-    ///
-    /// # Errors
-    /// A torque that is not finite; a fixed body.
-    pub fn twist(&mut self, id: BodyId, torque: f64) -> Result<(), CommandError> {
-        self.finite(id, "twist: torque", torque)?;
-        self.pushed(id, "twist")?.torque += torque;
-        Ok(())
-    }
-
-    fn pushed(&mut self, id: BodyId, verb: &'static str) -> Result<&mut Push, CommandError> {
-        if !self.bodies.is_mobile(id.index()) {
-            return Err(CommandError::Fixed { body: self.name(id).to_owned(), verb });
-        }
-        self.work.commands += 1;
-        let at = match self.pushes.binary_search_by_key(&id.0, |push| push.body) {
-            Ok(at) => at,
-            Err(at) => {
-                self.pushes.insert(at, Push { body: id.0, force: Vec2::zeros(), torque: 0.0 });
-                at
-            }
-        };
-        Ok(&mut self.pushes[at])
-    }
-
-    fn finite(&self, id: BodyId, what: &str, value: f64) -> Result<(), CommandError> {
-        let named = |number| CommandError::Number { body: self.name(id).to_owned(), number };
-        check::finite(what, value).map(|_| ()).map_err(named)
-    }
-
-    fn give_physics(&mut self, id: BodyId) {
-        if self.bodies.role[id.index()] == Role::Fixed {
-            self.bodies.role[id.index()] = Role::FixedWithPhysics;
-            self.movers.add_fixed(id.0);
-        }
-    }
-}
-
-impl Directory {
-    fn new(scene: &Scene) -> Self {
-        let names: Vec<Box<str>> = scene.bodies.iter().map(|body| body.name.as_str().into()).collect();
-        let mut by_name: Vec<u32> = (0..names.len() as u32).collect();
-        by_name.sort_unstable_by(|a, b| names[*a as usize].cmp(&names[*b as usize]));
-        let tags = scene.bodies.iter().enumerate();
-        let tags = tags.flat_map(|(i, body)| body.tags.iter().map(move |tag| (i as u32, tag.as_str().into())));
-        Directory { tags: tags.collect(), names, by_name }
-    }
-
-    fn find(&self, name: &str) -> Option<u32> {
-        let at = self.by_name.binary_search_by(|i| (*self.names[*i as usize]).cmp(name)).ok()?;
-        Some(self.by_name[at])
     }
 }

@@ -21,6 +21,42 @@ pub(crate) struct Blame<'a> {
     pub(crate) script: &'a str,
 }
 
+/// The text around an error, for whoever finds the words for it.
+pub(crate) struct Place<'a> {
+    pub(crate) engine: &'a Engine,
+    pub(crate) library: &'a Library,
+    /// Of the script the error is in.
+    pub(crate) text: String,
+    pub(crate) position: Position,
+}
+
+impl Place<'_> {
+    /// The whole line.
+    pub(crate) fn row(&self) -> &str {
+        self.position.line().and_then(|line| self.text.lines().nth(line - 1)).unwrap_or("")
+    }
+
+    /// What stands on the line before the position.
+    pub(crate) fn before(&self) -> &str {
+        let row = self.row();
+        let column = self.position.position().unwrap_or(1).saturating_sub(1);
+        &row[..row.char_indices().nth(column).map_or(row.len(), |(at, _)| at)]
+    }
+
+    /// The word or sign at the position.
+    pub(crate) fn word(&self) -> Option<&str> {
+        let (line, column) = (self.position.line()?, self.position.position()?);
+        let mut tokens = source::tokens(&self.text).into_iter();
+        tokens.find(|token| (token.line, token.column) == (line, column)).map(|token| token.text)
+    }
+
+    /// Whether the position is in the body of a function.
+    pub(crate) fn is_in_function(&self) -> bool {
+        let place = (self.position.line().unwrap_or(1), self.position.position().unwrap_or(1));
+        source::is_in_function(&self.text, place)
+    }
+}
+
 /// Where an error happened, with the calls on the way there, innermost last.
 struct Trail<'a> {
     error: &'a EvalAltResult,
@@ -97,9 +133,10 @@ impl Blame<'_> {
     fn complaint(&self, error: &EvalAltResult, place: Option<(&str, Position)>) -> Complaint {
         let text = place.and_then(|(source, _)| self.library.text(source)).unwrap_or_default();
         let position = place.map_or(Position::NONE, |(_, position)| position);
+        let place = Place { engine: self.engine, library: self.library, text, position };
         match error {
-            EvalAltResult::ErrorParsing(error, _) => syntax::complaint(error, &text, position),
-            error => phrase::complaint(error, self.engine, &text, position),
+            EvalAltResult::ErrorParsing(error, _) => syntax::complaint(error, &place),
+            error => phrase::complaint(error, &place),
         }
     }
 

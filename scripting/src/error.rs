@@ -56,7 +56,15 @@ impl Diagnostic {
     /// The same error at a line and a column (both from 1) of a file with that text.
     #[must_use]
     pub fn at(mut self, file: &Path, text: &str, line: usize, column: usize) -> Self {
-        self.details.text = text.lines().nth(line.saturating_sub(1)).map(str::to_owned);
+        let rows: Vec<&str> = text.lines().collect();
+        let row = rows.get(line.saturating_sub(1)).copied();
+        // What is found missing at the very end is shown where the text ends.
+        let last = rows.iter().rposition(|row| !row.trim().is_empty());
+        let (line, column) = match (row, last) {
+            (None, Some(last)) => (last + 1, rows[last].trim_end().chars().count() + 1),
+            _ => (line, column),
+        };
+        self.details.text = row.or(last.map(|last| rows[last])).map(str::to_owned);
         (self.line, self.column) = (Some(line), Some(column));
         self.in_file(file)
     }

@@ -4,7 +4,7 @@ use rhai::{Dynamic, FnPtr, GlobalRuntimeState, ImmutableString};
 
 use crate::error::Diagnostic;
 use crate::handles;
-use crate::number::must_be;
+use crate::number::must_give;
 use crate::script::Script;
 use crate::session::Site;
 
@@ -93,7 +93,7 @@ pub(crate) fn judge(script: &Script, pending: &Pending) -> Result<Option<Failure
             Ok(Some(Failure { iteration, numbers: session.name_readings(&readings) }))
         }
         Err(_) => {
-            let complaint = must_be(&format!("what {} gives", pending.title()), "true or false", &answer);
+            let complaint = must_give(&pending.title(), &answer);
             Err(script.complain_of(pending, complaint))
         }
     }

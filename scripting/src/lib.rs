@@ -5,7 +5,7 @@
 //! | how is a scenario loaded and run? | [`Scenario`], [`Run`] |
 //! | which words are there? | [`words`] |
 //! | what may a script do? | `sandbox.rs`, `library.rs`, `modules.rs` |
-//! | what does a person see when something is wrong? | [`Diagnostic`]; `blame.rs` finds the place, `phrase.rs` and `syntax.rs` the words |
+//! | what does a person see when something is wrong? | [`Diagnostic`]; `blame.rs` finds the place, `phrase.rs`, `calls.rs` and `syntax.rs` the words |
 //! | where do words keep what they build? | `session.rs`, `draft.rs`, `params.rs` |
 //!
 //! This is the only crate that knows Rhai. Loading a script runs its main part, which makes a
@@ -26,6 +26,7 @@
 
 mod blame;
 mod callbacks;
+mod calls;
 mod clock;
 mod draft;
 mod error;

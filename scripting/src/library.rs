@@ -94,6 +94,11 @@ impl Library {
         self.texts.borrow_mut().insert(name.to_owned(), text.to_owned());
     }
 
+    /// The text of every script read so far, one after the other.
+    pub(crate) fn all_texts(&self) -> String {
+        self.texts.borrow().values().map(|text| format!("{text}\n")).collect()
+    }
+
     /// The text of a script read before.
     pub(crate) fn text(&self, name: &str) -> Option<String> {
         self.texts.borrow().get(name).cloned()
@@ -145,7 +150,8 @@ fn names_in(folder: &Path) -> Vec<String> {
 /// # Errors
 /// What cannot be read, is too large, or is not UTF-8.
 pub(crate) fn read_text(file: &Path, shown: &Path) -> Result<String, Diagnostic> {
-    let unreadable = |reason: &str| Diagnostic::new(format!("cannot read it: {reason}")).in_file(shown);
+    let unreadable =
+        |reason: &str| Diagnostic::new(format!("cannot read {}: {reason}", shown.display())).in_file(shown);
     let metadata = fs::metadata(file).map_err(|error| unreadable(&plain(&error)))?;
     if !metadata.is_file() {
         return Err(unreadable("it is not a file"));

@@ -1,4 +1,4 @@
-//! What a script hands over, turned into numbers and texts: one place for "must be a number, not a string".
+//! What a script hands over, turned into numbers and strings: one place for "must be a number, not a string".
 //!
 //! Whole numbers are welcome wherever numbers are; NaN and infinities are refused here, at the word,
 //! with the name of the argument. `what` is that name: `rect: width`.
@@ -67,12 +67,12 @@ pub(crate) fn count(what: &str, value: &Dynamic) -> Result<u64, Complaint> {
     u64::try_from(whole).map_err(|_| Complaint::new(format!("{what} must be 0 or more, not {whole}")))
 }
 
-/// A text.
+/// A string.
 pub(crate) fn text(what: &str, value: &Dynamic) -> Result<ImmutableString, Complaint> {
-    value.clone().into_immutable_string().map_err(|_| must_be(what, "a text", value))
+    value.clone().into_immutable_string().map_err(|_| must_be(what, "a string", value))
 }
 
-/// A text of no more than `most` characters, and not an empty one.
+/// A string of no more than `most` characters, and not an empty one.
 pub(crate) fn label(what: &str, value: &Dynamic, most: usize) -> Result<ImmutableString, Complaint> {
     let text = text(what, value)?;
     let length = text.chars().count();
@@ -99,8 +99,8 @@ pub(crate) fn tuples<const N: usize>(what: &str, shape: &str, value: &Dynamic) -
             return Err(Complaint::new(format!("{place} must be {shape}, not {} numbers", numbers.len())));
         }
         let mut tuple = [0.0; N];
-        for (slot, number) in tuple.iter_mut().zip(numbers.iter()) {
-            *slot = finite(&place, number)?;
+        for (at, (slot, number)) in tuple.iter_mut().zip(numbers.iter()).enumerate() {
+            *slot = finite(&format!("{place}, number {at}"), number)?;
         }
         tuples.push(tuple);
     }
@@ -110,6 +110,11 @@ pub(crate) fn tuples<const N: usize>(what: &str, shape: &str, value: &Dynamic) -
 /// "… must be a number, not a string".
 pub(crate) fn must_be(what: &str, must: &str, value: &Dynamic) -> Complaint {
     Complaint::new(format!("{what} must be {must}, not {}", kind_of(value)))
+}
+
+/// "stop_when must give true or false, not a string".
+pub(crate) fn must_give(who: &str, answer: &Dynamic) -> Complaint {
+    Complaint::new(format!("{who} must give true or false, not {}", kind_of(answer)))
 }
 
 /// What a value is, in words.
@@ -124,7 +129,7 @@ pub(crate) fn kind_named(type_name: &str) -> &'static str {
         "f64" | "FLOAT" => "a number with decimals",
         "bool" => "true or false",
         "char" => "a character",
-        "string" | "String" | "ImmutableString" | "&str" | "&str | ImmutableString | String" => "a text",
+        "string" | "String" | "ImmutableString" | "&str" | "&str | ImmutableString | String" => "a string",
         "()" => "nothing",
         "array" | "Array" | "Vec<Dynamic>" => "an array",
         "map" | "Map" => "a map",

@@ -1,18 +1,19 @@
 //! Errors of a running script, in a designer's words.
 
-use rhai::{Engine, EvalAltResult, Position};
+use rhai::EvalAltResult;
 
+use crate::blame::Place;
+use crate::calls;
 use crate::error::Complaint;
 use crate::guard::{self, MOST_NESTING};
 use crate::number::{kind_named, kind_of};
 use crate::sandbox::{self, MOST_CALLS, MOST_ENTRIES, MOST_MODULES, MOST_OPERATIONS, MOST_TEXT, MOST_VARIABLES};
-use crate::source;
 use crate::suggest::did_you_mean;
 use crate::syntax::lower;
 use crate::words::{self, Word};
 
-/// What went wrong at a position of a script with that text.
-pub(crate) fn complaint(error: &EvalAltResult, engine: &Engine, text: &str, position: Position) -> Complaint {
+/// What went wrong at a place.
+pub(crate) fn complaint(error: &EvalAltResult, place: &Place) -> Complaint {
     use EvalAltResult as E;
     match error {
         E::ErrorRuntime(thrown, _) => match thrown.read_lock::<Complaint>() {
@@ -22,7 +23,7 @@ pub(crate) fn complaint(error: &EvalAltResult, engine: &Engine, text: &str, posi
             }
             None => Complaint::new(format!("the script threw {}", kind_of(thrown))),
         },
-        E::ErrorFunctionNotFound(call, _) => unknown_call(&Call::parse(call), engine, text, position),
+        E::ErrorFunctionNotFound(call, _) => calls::unknown(call, place),
         E::ErrorDotExpr(what, _) => unknown_property(what),
         E::ErrorIndexingType(what, _) => not_indexable(what),
         E::ErrorMismatchDataType(wanted, found, _) | E::ErrorMismatchOutputType(wanted, found, _) => {
@@ -35,10 +36,10 @@ pub(crate) fn complaint(error: &EvalAltResult, engine: &Engine, text: &str, posi
             Complaint::new(format!("there is no entry {index}: the array has {entries}, counted from 0"))
         }
         E::ErrorStringBounds(length, index, _) => {
-            Complaint::new(format!("there is no character {index}: the text has {length}, counted from 0"))
+            Complaint::new(format!("there is no character {index}: the string has {length}, counted from 0"))
         }
         E::ErrorIndexNotFound(index, _) => Complaint::new(format!("there is no entry {index}")),
-        E::ErrorFor(_) => Complaint::new("`for` goes through a range, an array or a text, and this is none"),
+        E::ErrorFor(_) => Complaint::new("`for` goes through a range, an array or a string, and this is none"),
         E::ErrorAssignmentToConstant(name, _) => {
             Complaint::new(format!("`{name}` is a constant: it cannot be written"))
         }
@@ -72,7 +73,7 @@ fn limit(error: &EvalAltResult) -> Option<Complaint> {
         }
         E::ErrorTooManyModules(_) => Complaint::new(format!("a script may import {MOST_MODULES} modules at most")),
         E::ErrorDataTooLarge(what, _) if what.contains("string") => {
-            Complaint::new(format!("a text may have {MOST_TEXT} bytes at most"))
+            Complaint::new(format!("a string may have {MOST_TEXT} bytes at most"))
         }
         E::ErrorDataTooLarge(what, _) if what == guard::NESTING => {
             Complaint::new(format!("arrays and maps may lie {MOST_NESTING} deep within each other at most"))
@@ -82,93 +83,6 @@ fn limit(error: &EvalAltResult) -> Option<Complaint> {
         }
         _ => return None,
     })
-}
-
-/// A call that found no function: `rect (Body, i64)`.
-struct Call<'a> {
-    name: &'a str,
-    arguments: Vec<&'a str>,
-}
-
-impl<'a> Call<'a> {
-    fn parse(call: &'a str) -> Self {
-        let (name, arguments) = call.split_once(" (").unwrap_or((call, ""));
-        let arguments = arguments.strip_suffix(')').unwrap_or(arguments);
-        Call { name, arguments: arguments.split(", ").filter(|argument| !argument.is_empty()).collect() }
-    }
-
-    fn kinds(&self) -> Vec<&'static str> {
-        self.arguments.iter().map(|argument| kind_named(argument)).collect()
-    }
-}
-
-fn unknown_call(call: &Call, engine: &Engine, text: &str, position: Position) -> Complaint {
-    let name = call.name.rsplit("::").next().unwrap_or(call.name);
-    if name.starts_with("anon$") {
-        return Complaint::new(format!("the closure does not take {}", count(call.arguments.len(), "argument")));
-    }
-    if !name.starts_with(|c: char| c.is_alphabetic() || c == '_') {
-        return Complaint::new(format!("`{name}` does not work on {}", call.kinds().join(" and ")));
-    }
-    if let Some(why) = sandbox::why_withheld(name) {
-        return Complaint::new(format!("`{name}` is not available in a scenario")).hint(why);
-    }
-    let is_method = is_method_call(text, position);
-    let functions = source::functions(text);
-    if let Some(function) = functions.iter().find(|function| function.name.text == name) {
-        let given = call.arguments.len() - usize::from(is_method && !call.arguments.is_empty());
-        let takes = function.parameters.join(", ");
-        return Complaint::new(format!("`{name}` takes ({takes}), not {}", count(given, "argument")));
-    }
-    let words = words::all();
-    let word: Vec<&str> = words.iter().filter(|word| word.name == name).flat_map(calls_of).collect();
-    if !word.is_empty() {
-        return misused_word(call, &word, is_method);
-    }
-    let of_packages = engine.collect_fn_metadata(None, |info| Some(info.metadata.name.to_string()), true);
-    if of_packages.iter().any(|known| known == name) {
-        return Complaint::new(format!("`{name}` does not work on {}", call.kinds().join(", ")));
-    }
-    let of_script = functions.iter().map(|function| function.name.text);
-    let names = of_script.chain(words.iter().map(|word| word.name.as_str()).filter(|name| *name != "[]"));
-    let packages = of_packages.iter().map(String::as_str);
-    let hint = did_you_mean(name, names, str::to_owned).or_else(|| did_you_mean(name, packages, str::to_owned));
-    Complaint::new(format!("there is no word or function `{}`", call.name)).maybe_hint(hint)
-}
-
-/// The ways of calling a word, properties left out.
-fn calls_of(word: &Word) -> impl Iterator<Item = &str> {
-    word.signatures
-        .iter()
-        .map(String::as_str)
-        .filter(|signature| signature.ends_with(')') && !signature.starts_with("fn "))
-}
-
-fn misused_word(call: &Call, signatures: &[&str], is_method: bool) -> Complaint {
-    let receiver = call.arguments.first().map(|kind| kind_named(kind));
-    let fits = |signature: &&&str| match signature.split(['.', '(']).next() {
-        Some("body") => receiver == Some("a body"),
-        Some("world") => receiver == Some("the world"),
-        _ => !is_method,
-    };
-    let fitting: Vec<&str> = signatures.iter().filter(fits).copied().collect();
-    if fitting.is_empty() {
-        let given = if is_method { receiver.unwrap_or("nothing") } else { "nothing" };
-        let of = if is_method { format!("of {given}") } else { "by itself".to_owned() };
-        return Complaint::new(format!("`{}` is no word {of}", call.name))
-            .hint(format!("write {}", signatures.join(" or ")));
-    }
-    let own = usize::from(fitting[0].contains('.'));
-    let given = count(call.arguments.len().saturating_sub(own), "argument");
-    let takes: Vec<&str> =
-        fitting.iter().filter_map(|signature| signature.find('(').map(|at| &signature[at..])).collect();
-    Complaint::new(format!("{} takes {}, not {given}", call.name, takes.join(" or ")))
-}
-
-fn is_method_call(text: &str, position: Position) -> bool {
-    let line = position.line().and_then(|line| text.lines().nth(line - 1)).unwrap_or("");
-    let before: String = line.chars().take(position.position().unwrap_or(1).saturating_sub(1)).collect();
-    before.trim_end().ends_with('.')
 }
 
 /// `Unknown property 'y' - a getter is not registered for type 'Body'`, or the same of a setter.
@@ -197,8 +111,4 @@ fn not_indexable(what: &str) -> Complaint {
     let owner = what.split(" [").next().unwrap_or(what);
     let complaint = Complaint::new(format!("{} has no entries to reach with [ ]", kind_named(owner)));
     complaint.maybe_hint((owner == "Body").then(|| "its properties are reached with a dot: body.x".to_owned()))
-}
-
-fn count(number: usize, thing: &str) -> String {
-    if number == 1 { format!("1 {thing}") } else { format!("{number} {thing}s") }
 }

@@ -7,6 +7,7 @@ use choque_engine::{Scene, SceneError};
 use crate::error::{Complaint, Diagnostic};
 use crate::options::Options;
 use crate::params::Params;
+use crate::syntax::lower;
 
 /// Reads a scene, with everything said from outside applied.
 ///
@@ -15,7 +16,7 @@ use crate::params::Params;
 pub(crate) fn read(file: &Path, text: &str, options: &Options) -> Result<Scene, Diagnostic> {
     let mut scene: Scene = ron::from_str(text).map_err(|error| {
         let at = error.span.start;
-        Diagnostic::new(format!("not a scene: {}", error.code)).at(file, text, at.line, at.col)
+        Diagnostic::new(format!("not a scene: {}", lower(&error.code.to_string()))).at(file, text, at.line, at.col)
     })?;
     let complain = |complaint: Complaint| Diagnostic::of(complaint).in_file(file);
     let params = Params::new(&options.set).map_err(complain)?;

@@ -1,7 +1,7 @@
 //! What Rhai's own packages do that a sandbox cannot leave so.
 //!
 //! Its sorting and its `dedup` pass over errors in the closure they are given, an endless loop included, and may
-//! panic on NaN; its `replace` makes a text of any size before anyone asks how long it is; its `range` wants
+//! panic on NaN; its `replace` makes a string of any size before anyone asks how long it is; its `range` wants
 //! three numbers of one type.
 
 #![allow(unreachable_pub, clippy::unwrap_used)] // of the plugin macro: it takes `pub` functions only, and unwraps
@@ -130,7 +130,7 @@ fn spread(from: &Dynamic, to: &Dynamic, step: &Dynamic) -> Result<Array, Complai
     Ok((0..count as i64).map(|i| Dynamic::from_float(from + i as f64 * step)).collect())
 }
 
-/// Numbers by size (NaN last), texts and characters by their letters.
+/// Numbers by size (NaN last), strings and characters by their letters.
 fn natural(context: &NativeCallContext, a: &Dynamic, b: &Dynamic) -> RhaiResultOf<Ordering> {
     let number = |value: &Dynamic| value.as_int().map(|whole| whole as f64).or_else(|_| value.as_float());
     if let (Ok(a), Ok(b)) = (a.as_int(), b.as_int()) {
@@ -205,7 +205,7 @@ fn replace(context: &NativeCallContext, text: &mut ImmutableString, find: &str, 
     let longer = substitute.len().saturating_sub(find.len());
     let length = text.len().saturating_add(text.matches(find).count().saturating_mul(longer));
     if length > MOST_TEXT {
-        let wrong = format!("replace: the text would have {length} bytes, and {MOST_TEXT} are the most");
+        let wrong = format!("replace: the string would have {length} bytes, and {MOST_TEXT} are the most");
         return Err(complain(Complaint::new(wrong), context.call_position()));
     }
     *text = text.replace(find, substitute).into();

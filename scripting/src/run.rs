@@ -12,7 +12,7 @@ use crate::callbacks::{ON_COLLISION, ON_STEP, STOP_WHEN};
 use crate::error::{Complaint, Diagnostic};
 use crate::expectation::{Expectation, Failure, When, judge};
 use crate::handles;
-use crate::number::must_be;
+use crate::number::must_give;
 use crate::plain;
 use crate::script::Script;
 
@@ -148,7 +148,7 @@ impl Scripted {
     fn wants_to_stop(&self) -> Result<bool, Diagnostic> {
         let answer = self.script.call(STOP_WHEN, &mut [Dynamic::from(handles::World)])?;
         answer.as_bool().map_err(|_| {
-            let complaint = must_be(&format!("what {STOP_WHEN} gives"), "true or false", &answer);
+            let complaint = must_give(STOP_WHEN, &answer);
             self.script.complain_of_callback(STOP_WHEN, complaint)
         })
     }

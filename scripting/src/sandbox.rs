@@ -29,7 +29,7 @@ pub(crate) const MOST_CALLS: usize = 32;
 /// How deep an expression may nest, outside functions and within. Together with [`MOST_CALLS`] this keeps the
 /// deepest script inside the 2 MiB stack of a thread (measured with nested sums, which need most).
 pub(crate) const MOST_DEPTH: (usize, usize) = (64, 48);
-/// Bytes of a text, alone or summed over an array or a map.
+/// Bytes of a string, alone or summed over an array or a map.
 pub(crate) const MOST_TEXT: usize = 50_000;
 /// Entries of an array or a map, those within its entries included.
 pub(crate) const MOST_ENTRIES: usize = 100_000;

@@ -75,6 +75,28 @@ pub(crate) fn functions(text: &str) -> Vec<Function<'_>> {
         .collect()
 }
 
+/// Whether a line and column are in the body of a function, between its braces.
+pub(crate) fn is_in_function(text: &str, place: (usize, usize)) -> bool {
+    let (mut depth, mut is_ahead, mut outer) = (0_usize, false, None);
+    for token in tokens(text).iter().take_while(|token| (token.line, token.column) < place) {
+        match token.text {
+            "fn" => is_ahead = true,
+            "{" => {
+                if is_ahead && outer.is_none() {
+                    outer = Some(depth);
+                }
+                (is_ahead, depth) = (false, depth + 1);
+            }
+            "}" => {
+                depth = depth.saturating_sub(1);
+                outer = outer.filter(|outer| depth > *outer);
+            }
+            _ => {}
+        }
+    }
+    outer.is_some()
+}
+
 /// The names a script declares as variables, constants or parameters.
 pub(crate) fn variables(text: &str) -> Vec<&str> {
     let tokens = tokens(text);
@@ -93,7 +115,7 @@ pub(crate) fn variables(text: &str) -> Vec<&str> {
 
 #[cfg(test)]
 mod tests {
-    use super::{functions, variables};
+    use super::{functions, is_in_function, variables};
 
     #[test]
     fn declarations_are_seen_and_comments_and_texts_are_not() {
@@ -103,5 +125,12 @@ mod tests {
         let found = functions(text);
         assert_eq!((found[0].name.text, found[0].name.line, found[0].name.column), ("f", 4, 4));
         assert_eq!(found[0].parameters, ["a", "b"]);
+    }
+
+    #[test]
+    fn a_place_is_in_a_function_between_its_braces() {
+        let text = "{ 1 }\nfn f(a) {\n if a { 2 }\n 3 }\n{ 4 }";
+        let inside = [(1, 3), (2, 5), (3, 2), (3, 9), (4, 2), (5, 3)].map(|place| is_in_function(text, place));
+        assert_eq!(inside, [false, false, true, true, true, false]);
     }
 }

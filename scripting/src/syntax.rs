@@ -1,33 +1,35 @@
 //! Scripts that do not compile, in a designer's words.
 
-use rhai::{LexError, ParseErrorType, Position};
+use rhai::{LexError, ParseErrorType};
 
+use crate::blame::Place;
 use crate::error::Complaint;
 use crate::sandbox::{self, MOST_FUNCTIONS};
 use crate::source;
 use crate::suggest::did_you_mean;
 use crate::words;
 
-/// What is wrong with a script's text at a position.
-pub(crate) fn complaint(error: &ParseErrorType, text: &str, position: Position) -> Complaint {
+/// What is wrong with a script's text at a place.
+pub(crate) fn complaint(error: &ParseErrorType, place: &Place) -> Complaint {
     use ParseErrorType as E;
     match error {
         E::BadInput(error) => bad_input(error),
         E::UnexpectedEOF => Complaint::new("the script ends too early").hint("is a `}` or a `)` missing?"),
-        E::VariableUndefined(name) => undefined_variable(name, text),
+        E::VariableUndefined(name) => undefined_variable(name, place),
         E::ModuleUndefined(name) => Complaint::new(format!("no module is imported as `{name}`"))
             .hint(format!("write import \"…\" as {name}; above")),
         E::MissingToken(token, why) => Complaint::new(format!("`{token}` is missing {why}")).maybe_hint(
-            (token == ";" && begins_line(text, position)).then(|| "perhaps at the end of the line before".to_owned()),
+            (token == ";" && place.before().trim().is_empty())
+                .then(|| "perhaps at the end of the line before".to_owned()),
         ),
         E::MismatchedType(wanted, found) => Complaint::new(format!("this must be {wanted}, not {found}")),
         E::ExprExpected(what) => Complaint::new(format!("{what} expression is missing here")),
         E::Reserved(name) => reserved(name),
-        E::PropertyExpected => match word_at(text, position).filter(|word| sandbox::why_withheld(word).is_some()) {
+        E::PropertyExpected => match place.word().filter(|word| sandbox::why_withheld(word).is_some()) {
             Some(word) => reserved(word),
             None => Complaint::new("the name of a property or a word is missing after the dot"),
         },
-        E::AssignmentToInvalidLHS(_) => not_assignable(text, position),
+        E::AssignmentToInvalidLHS(_) => not_assignable(place),
         E::AssignmentToConstant(name) => Complaint::new(format!("`{name}` is a constant: it cannot be written"))
             .hint(format!("declare it with `let {name}`")),
         E::UnknownOperator(sign) => Complaint::new(format!("`{sign}` is no operator")),
@@ -50,13 +52,13 @@ fn bad_input(error: &LexError) -> Complaint {
         }
         LexError::UnexpectedInput(sign) => Complaint::new(format!("`{sign}` is not expected here")),
         LexError::UnterminatedString => {
-            Complaint::new("this text is not closed").hint("end it with the sign it began with")
+            Complaint::new("this string is not closed").hint("end it with the sign it began with")
         }
         LexError::MalformedNumber(_) => Complaint::new("this is no number"),
         LexError::MalformedEscapeSequence(escape) => {
             Complaint::new(format!("`{escape}` stands for no character")).hint("a backslash itself is written \\\\")
         }
-        LexError::MalformedChar(_) => Complaint::new("this is no single character").hint("texts are written \"…\""),
+        LexError::MalformedChar(_) => Complaint::new("this is no single character").hint("strings are written \"…\""),
         LexError::ImproperSymbol(sign, _) if sandbox::why_withheld(sign).is_some() => reserved(sign),
         LexError::ImproperSymbol(sign, advice) if !advice.is_empty() => {
             Complaint::new(format!("`{sign}` means nothing here")).hint(lower(advice))
@@ -65,11 +67,15 @@ fn bad_input(error: &LexError) -> Complaint {
     }
 }
 
-fn undefined_variable(name: &str, text: &str) -> Complaint {
+fn undefined_variable(name: &str, place: &Place) -> Complaint {
     let complaint = Complaint::new(format!("there is no variable `{name}` here"));
-    let declared = source::variables(text);
+    let declared = source::variables(&place.text);
     if name == "world" {
         return complaint.hint("the world is there in callbacks and expectations: fn on_step(world) { … }");
+    }
+    if declared.contains(&name) && !place.is_in_function() {
+        return complaint
+            .hint(format!("`{name}` is there from its `let` to the end of the {{ }} around it, and nowhere else"));
     }
     if declared.contains(&name) {
         return complaint.hint(format!(
@@ -97,26 +103,10 @@ fn reserved(name: &str) -> Complaint {
     Complaint::new(format!("`{name}` means nothing here"))
 }
 
-fn row(text: &str, position: Position) -> &str {
-    position.line().and_then(|line| text.lines().nth(line - 1)).unwrap_or("")
-}
-
-/// Whether nothing stands before a position on its line.
-fn begins_line(text: &str, position: Position) -> bool {
-    row(text, position).chars().take(position.position().unwrap_or(1) - 1).all(char::is_whitespace)
-}
-
-/// The word at a position.
-fn word_at(text: &str, position: Position) -> Option<&str> {
-    let (line, column) = (position.line()?, position.position()?);
-    let mut tokens = source::tokens(text).into_iter();
-    tokens.find(|token| (token.line, token.column) == (line, column)).map(|token| token.text)
-}
-
 /// `world.body("a").vx = 1`, which Rhai refuses for any function call on the left.
-fn not_assignable(text: &str, position: Position) -> Complaint {
+fn not_assignable(place: &Place) -> Complaint {
     let complaint = Complaint::new("this cannot be assigned to");
-    let rewritten = row(text, position).split_once(".body(").and_then(|(before, after)| {
+    let rewritten = place.row().split_once(".body(").and_then(|(before, after)| {
         let (name, rest) = after.split_once(')')?;
         let receiver = before.rsplit(|c: char| !c.is_alphanumeric() && c != '_').next()?;
         let rest = rest.split(['}', ';']).next()?.trim_end();

@@ -7,3 +7,4 @@ mod metamorphic;
 mod project;
 mod snapshots;
 mod support;
+mod tidy;

@@ -4,6 +4,7 @@
 //! [`strips`] is held to it by a test over every scenario and a thousand random scenes.
 
 pub mod all_pairs;
+mod bounds;
 pub mod strips;
 
 use crate::bodies::{Bodies, Role};

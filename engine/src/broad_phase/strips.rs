@@ -13,10 +13,9 @@
 //! strips of one bucket cost a comparison, never a collision. All bounds are widened by more than the vertex
 //! test can err, so no collision is missed.
 
-use crate::area::{Rect, Vec2};
+use super::bounds::{Range, bounds, range_within};
 use crate::bodies::Bodies;
 use crate::detect::overlap;
-use crate::frame::Frame;
 use crate::work::Work;
 
 /// The sweep's scratch; it allocates until it is warm and never after.
@@ -45,14 +44,6 @@ struct Owner {
     mobile: bool,
 }
 
-/// A range along an axis, rounded outwards to f32: bounds only have to be sure, and half the bytes is
-/// half the traffic.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Range {
-    min: f32,
-    max: f32,
-}
-
 /// The bounds of a rectangle in the world, widened, and the strips it reaches into.
 #[derive(Clone, Copy, Debug)]
 struct Bounds {
@@ -71,10 +62,6 @@ struct Entry {
     /// Whether pairs with it are to be shown in this strip whatever the partner says (see [`Strips::sweep`]).
     shows: bool,
 }
-
-/// How far bounds are widened, relative to the coordinates they come from: the vertex test errs by a few
-/// roundings (1e-16 each), never by this much.
-const WIDENING: f64 = 1e-13;
 
 /// A rectangle that reaches into this many strips is cut to the range of x it covers in each.
 const LONG: i32 = 6;
@@ -340,67 +327,6 @@ fn put_in_order(strip: &mut [Entry]) {
 fn may_touch(bodies: &Bodies, (i, rect_i): (usize, u32), (j, rect_j): (usize, u32)) -> bool {
     let (a, b) = (&bodies.rects[rect_i as usize], &bodies.rects[rect_j as usize]);
     !overlap::certainly_apart(&bodies.frame[i], a, &bodies.frame[j], b)
-}
-
-impl Range {
-    /// The range, rounded outwards: by twice what rounding to f32 can err.
-    #[inline]
-    fn around(min: f64, max: f64) -> Self {
-        let ulp = f64::from(f32::EPSILON);
-        Range { min: (min - min.abs() * ulp) as f32, max: (max + max.abs() * ulp) as f32 }
-    }
-
-    fn common(self, other: Range) -> Range {
-        Range { min: self.min.max(other.min), max: self.max.min(other.max) }
-    }
-}
-
-/// The widened bounds of a rectangle in the world: its ranges of x and of z.
-#[inline]
-fn bounds(frame: &Frame, rect: &Rect) -> (Range, Range) {
-    let (centre, half) = (frame.place(rect.centre()), rect.half());
-    let (cos, sin) = (frame.cos.abs(), frame.sin.abs());
-    let widening = widening(frame, rect);
-    let reach_x = cos * half.x + sin * half.y + widening;
-    let reach_z = sin * half.x + cos * half.y + widening;
-    (Range::around(centre.x - reach_x, centre.x + reach_x), Range::around(centre.y - reach_z, centre.y + reach_z))
-}
-
-/// By how much bounds may be wrong, many times over.
-#[inline]
-fn widening(frame: &Frame, rect: &Rect) -> f64 {
-    let sizes = rect.x_min.abs() + rect.x_max.abs() + rect.z_min.abs() + rect.z_max.abs();
-    WIDENING * (frame.o.x.abs() + frame.o.y.abs() + sizes)
-}
-
-/// The range of x that a rectangle covers between two values of z, widened; `None` where it has none.
-fn range_within(frame: &Frame, rect: &Rect, slab: (f64, f64)) -> Option<Range> {
-    let widening = widening(frame, rect);
-    let (low, high) = (slab.0 - widening, slab.1 + widening);
-    let corners = rect.vertices().map(|vertex| frame.place(vertex));
-    let mut range: Option<(f64, f64)> = None;
-    for k in 0..4 {
-        if let Some((p, q)) = cut(corners[k], corners[(k + 1) % 4], low, high) {
-            let (least, greatest) = range.unwrap_or((p, p));
-            range = Some((least.min(p).min(q), greatest.max(p).max(q)));
-        }
-    }
-    // An edge cut at a shallow angle errs by more than a rounding; a thousandth of the depth is ample and cheap.
-    let slack = widening + 1e-3 * (slab.1 - slab.0);
-    range.map(|(least, greatest)| Range::around(least - slack, greatest + slack))
-}
-
-/// The x at both ends of what an edge has between two values of z.
-fn cut(from: Vec2, to: Vec2, low: f64, high: f64) -> Option<(f64, f64)> {
-    let (from, to) = if from.y <= to.y { (from, to) } else { (to, from) };
-    if to.y < low || from.y > high {
-        return None;
-    }
-    let rise = to.y - from.y;
-    let x_at = |z: f64| if rise > 0.0 { from.x + (to.x - from.x) * ((z - from.y) / rise) } else { from.x };
-    let start = if from.y < low { x_at(low) } else { from.x };
-    let end = if to.y > high { x_at(high) } else { to.x };
-    Some((start, end))
 }
 
 /// ⌊x⌋ as a whole number; far out it stays at the ends of a range wide enough for any number of strips.

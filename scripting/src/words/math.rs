@@ -252,13 +252,13 @@ pub(crate) mod module {
         one(&context, &x)
     }
 
-    /// The whole number a text says.
+    /// The whole number a string says.
     #[rhai_fn(return_raw)]
     pub fn parse_int(context: NativeCallContext, text: Text) -> RhaiResultOf<i64> {
         parse(&context, &text, "a whole number")
     }
 
-    /// The number a text says.
+    /// The number a string says.
     #[rhai_fn(return_raw)]
     pub fn parse_float(context: NativeCallContext, text: Text) -> RhaiResultOf<f64> {
         parse(&context, &text, "a number")

@@ -22,9 +22,9 @@ pub use manual::{Word, all, write_definitions};
 // Names for the reader of the documentation: any value is taken, and refused in our words if it is another.
 /// A number, whole or not.
 pub(crate) type Number = Dynamic;
-/// A text.
+/// A string.
 pub(crate) type Text = Dynamic;
-/// A text, one of a few.
+/// A string, one of a few.
 pub(crate) type Choice = Dynamic;
 /// An array.
 pub(crate) type List = Dynamic;

@@ -130,7 +130,7 @@ pub(crate) mod module {
         a != b
     }
 
-    /// The body as a text: its kind and its name.
+    /// The body as a string: its kind and its name.
     #[rhai_fn(name = "to_string", name = "to_debug", return_raw, pure)]
     pub fn body_to_string(context: NativeCallContext, body: &mut Body) -> RhaiResultOf<String> {
         let called = |kind: scene::Kind, name: &str| format!("{}(\"{name}\")", kind.word());

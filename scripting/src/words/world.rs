@@ -147,7 +147,7 @@ pub(crate) mod module {
         hit.iteration as i64
     }
 
-    /// The world as a text: how many bodies it has, and its time.
+    /// The world as a string: how many bodies it has, and its time.
     #[rhai_fn(name = "to_string", name = "to_debug", return_raw, pure)]
     pub fn world_to_string(context: NativeCallContext, world: &mut World) -> RhaiResultOf<String> {
         session::with(&context, |session| {

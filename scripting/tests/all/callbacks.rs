@@ -51,8 +51,7 @@ fn a_hit_tells_the_pair_the_point_and_the_depth() {
 
 #[test]
 fn properties_are_read_and_written() {
-    let (run, _) = run(
-        r#"
+    let (run, _) = run(r#"
         time_step(1); steps(1);
         mobile("a").rect(1, 1); mobile("b").rect(1, 1).at(10, 0); fixed("wall").rect(1, 1).at(0, 10);
         fn on_step(world) {
@@ -63,8 +62,7 @@ fn properties_are_read_and_written() {
             world.b.vz = -2;
             world["wall"].vz = 1;
         }
-        "#,
-    );
+        "#);
     let world = run.world();
     let (a, b, wall) = (world.find("a").unwrap(), world.find("b").unwrap(), world.find("wall").unwrap());
     assert_eq!((world.position(a).x, world.position(a).y, world.angle(a)), (4.0, 1.5, 0.75));
@@ -74,16 +72,14 @@ fn properties_are_read_and_written() {
 
 #[test]
 fn pushes_and_twists_act_over_one_iteration_and_add_up() {
-    let (run, _) = run(
-        r#"
+    let (run, _) = run(r#"
         time_step(0.5); steps(2);
         mobile("a").rect(1, 1).mass(2).inertia(4);
         fn on_step(world) {
             if world.iteration > 0 { return; }
             world["a"].push(1, 0); world["a"].push(3, -2); world["a"].twist(8);
         }
-        "#,
-    );
+        "#);
     let world = run.world();
     let a = world.find("a").unwrap();
     // v = F/m · dt, once: (4, −2)/2 · 0.5; ω = τ/I · dt = 8/4 · 0.5
@@ -121,13 +117,11 @@ fn the_world_tells_its_totals_and_lists_its_bodies() {
 
 #[test]
 fn a_handle_of_the_main_part_serves_in_closures() {
-    let (_, expectations) = run(
-        r#"
+    let (_, expectations) = run(r#"
         time_step(1); steps(3);
         let car = mobile("car").rect(1, 1).velocity(2, 0);
         expect("it went its way", |world| car.x == 6 && car.speed == 2 && car == world["car"]);
-        "#,
-    );
+        "#);
     assert!(expectations[0].held);
 }
 
@@ -201,8 +195,11 @@ fn a_script_without_callbacks_runs_as_the_engine_does() {
 fn a_scenario_tells_which_callbacks_it_has() {
     let folder = Folder::with(&[
         ("none.rhai", "fn helper(world) { }"),
-        ("all.rhai", "fn on_step(w) { } fn on_collision(a, b) { } fn stop_when(w) { false } \
-                      expect(\"a\", |w| true); always(\"b\", |w| true); always(\"c\", |w| true);"),
+        (
+            "all.rhai",
+            "fn on_step(w) { } fn on_collision(a, b) { } fn stop_when(w) { false } \
+                      expect(\"a\", |w| true); always(\"b\", |w| true); always(\"c\", |w| true);",
+        ),
     ]);
     let callbacks = |name| folder.load(name, &Default::default()).unwrap().callbacks();
     assert_eq!(callbacks("none.rhai"), Callbacks::default());

@@ -14,14 +14,14 @@ fn while_running(callback: &str) -> String {
 #[test]
 fn a_wrong_type_names_the_argument() {
     assert_snapshot!(error("mobile(\"a\")\n    .rect(\"wide\", 2);"), @r#"
-    error: rect: width must be a number, not a text
+    error: rect: width must be a number, not a string
      --> scene.rhai:2:6
       |
     2 |     .rect("wide", 2);
       |      ^^^^
     "#);
     assert_snapshot!(error("mobile(3);"), @r#"
-    error: mobile: name must be a text, not a whole number
+    error: mobile: name must be a string, not a whole number
      --> scene.rhai:1:1
       |
     1 | mobile(3);
@@ -49,7 +49,7 @@ fn a_wrong_type_names_the_argument() {
       | ^^^^^
     "#);
     assert_snapshot!(error("sin(\"x\");"), @r#"
-    error: `sin` works on numbers, not on a text
+    error: `sin` works on numbers, not on a string
      --> scene.rhai:1:1
       |
     1 | sin("x");
@@ -136,7 +136,7 @@ fn a_wrong_number_of_arguments_names_the_signatures() {
       | ^^^
     "#);
     assert_snapshot!(error("5.rect(1, 2);"), @r#"
-    error: `rect` is no word of a whole number
+    error: `rect` is a word of a body, not of a whole number
      --> scene.rhai:1:3
       |
     1 | 5.rect(1, 2);
@@ -145,7 +145,7 @@ fn a_wrong_number_of_arguments_names_the_signatures() {
       = help: write body.rect(width, depth) or body.rect(x_min, x_max, z_min, z_max)
     "#);
     assert_snapshot!(error("rect(1, 2);"), @r#"
-    error: `rect` is no word by itself
+    error: `rect` is a word of a body, and needs one
      --> scene.rhai:1:1
       |
     1 | rect(1, 2);
@@ -282,7 +282,7 @@ fn syntax_errors_have_their_line_too() {
       = help: perhaps at the end of the line before
     "#);
     assert_snapshot!(error("mobile(\"a);"), @r#"
-    error: this text is not closed
+    error: this string is not closed
      --> scene.rhai:1:8
       |
     1 | mobile("a);
@@ -292,7 +292,10 @@ fn syntax_errors_have_their_line_too() {
     "#);
     assert_snapshot!(error("if true {\n    steps(3);\n"), @r#"
     error: `}` is missing to terminate this block
-    --> scene.rhai:3:1
+     --> scene.rhai:2:14
+      |
+    2 |     steps(3);
+      |              ^
     "#);
     assert_snapshot!(error("let x = 5 +* 3;"), @r#"
     error: `*` is not expected here
@@ -354,7 +357,7 @@ fn an_error_in_a_function_tells_how_one_gets_there() {
       = note: in `map`, called at scene.rhai:2:8
     "#);
     assert_snapshot!(error("let f = |a, b| a;\nf.call(1);"), @r#"
-    error: the closure does not take 1 argument
+    error: the closure takes another number of arguments than it is given
      --> scene.rhai:2:3
       |
     2 | f.call(1);
@@ -366,10 +369,17 @@ fn an_error_in_a_function_tells_how_one_gets_there() {
 fn an_error_in_a_module_is_shown_there() {
     let module = "fn bad(name) {\n    mobile(name).rect(\"x\", 2)\n}\nfn later() { expect(\"later\", |world| world.foo > 1); }\n\
                   fn boom() { [1][7] }";
-    let files = |script| [("scene.rhai", script), ("lib/cars.rhai", module), ("lib/broken.rhai", "fn f( { }"), ("lib/top.rhai", "\nsteps(-1);")];
+    let files = |script| {
+        [
+            ("scene.rhai", script),
+            ("lib/cars.rhai", module),
+            ("lib/broken.rhai", "fn f( { }"),
+            ("lib/top.rhai", "\nsteps(-1);"),
+        ]
+    };
     let error = |script| error_in(&files(script), &Options::default());
     assert_snapshot!(error("import \"lib/cars\" as cars;\ncars::bad(\"a\");"), @r#"
-    error: rect: width must be a number, not a text
+    error: rect: width must be a number, not a string
      --> lib/cars.rhai:2:18
       |
     2 |     mobile(name).rect("x", 2)
@@ -438,6 +448,8 @@ fn an_error_in_a_module_is_shown_there() {
       |
     2 | cars::baad("a");
       |       ^^^^
+      |
+      = help: did you mean `bad`?
     "#);
 }
 
@@ -532,7 +544,7 @@ fn what_cannot_be_written_says_so() {
       = note: in `on_step`
     "#);
     assert_snapshot!(while_running("fn on_step(world) { world[\"car\"].vx = \"fast\"; }"), @r#"
-    error: vx must be a number, not a text
+    error: vx must be a number, not a string
      --> scene.rhai:2:34
       |
     2 | fn on_step(world) { world["car"].vx = "fast"; }
@@ -615,7 +627,7 @@ fn bodies_that_contradict_themselves_are_refused() {
       = help: write .patrol([[x, z]], speed)
     "#);
     assert_snapshot!(error("mobile(\"a\").mesh([[0, 0, 0], [1, \"y\", 1]]);"), @r#"
-    error: mesh, entry 1 must be a number, not a text
+    error: mesh, entry 1, number 1 must be a number, not a string
      --> scene.rhai:1:13
       |
     1 | mobile("a").mesh([[0, 0, 0], [1, "y", 1]]);
@@ -706,7 +718,7 @@ fn callbacks_and_expectations_are_checked() {
       = help: write fn on_collision(world, hit) { … }
     "#);
     assert_snapshot!(while_running("fn stop_when(world) { 3 }"), @r#"
-    error: what stop_when gives must be true or false, not a whole number
+    error: stop_when must give true or false, not a whole number
      --> scene.rhai:2:4
       |
     2 | fn stop_when(world) { 3 }
@@ -740,7 +752,7 @@ fn callbacks_and_expectations_are_checked() {
       = help: write expect("holds", |world| …)
     "#);
     assert_snapshot!(while_running("expect(\"holds\", |world| world.time);"), @r#"
-    error: what expect "holds" gives must be true or false, not a number with decimals
+    error: expect "holds" must give true or false, not a number with decimals
      --> scene.rhai:2:1
       |
     2 | expect("holds", |world| world.time);
@@ -772,7 +784,7 @@ fn values_that_do_not_fit_are_named_in_words() {
       |           ^
     "#);
     assert_snapshot!(error("\"a\" - 1"), @r#"
-    error: `-` does not work on a text and a whole number
+    error: `-` does not work on a string and a whole number
      --> scene.rhai:1:5
       |
     1 | "a" - 1
@@ -786,7 +798,7 @@ fn values_that_do_not_fit_are_named_in_words() {
       |   ^
     "#);
     assert_snapshot!(error("let n = 5;\nfor i in n { }"), @r#"
-    error: `for` goes through a range, an array or a text, and this is none
+    error: `for` goes through a range, an array or a string, and this is none
      --> scene.rhai:2:10
       |
     2 | for i in n { }
@@ -825,7 +837,7 @@ fn values_that_do_not_fit_are_named_in_words() {
       = help: its properties are reached with a dot: body.x
     "#);
     assert_snapshot!(error("[1, \"a\"].sort()"), @r#"
-    error: sort: a whole number and a text have no order of their own
+    error: sort: a whole number and a string have no order of their own
      --> scene.rhai:1:10
       |
     1 | [1, "a"].sort()
@@ -863,7 +875,24 @@ fn a_diagnostic_can_be_taken_apart() {
 fn no_error_names_a_type_of_rust() {
     let values = ["1", "1.5", "true", "\"a\"", "'c'", "[1]", "#{a: 1}", "()", "|x| x", "0..3", "mobile(\"m\")"];
     for value in values {
-        for call in ["{} + mobile(\"q\")", "mobile({})", "mobile(\"q\").at({}, {})", "{}.nonsense", "{}.nonsense()", "{}[#{}]", "for i in {} { i.x.y.z.w }", "throw {}", "expect(\"a\", {})", "-{}", "sin({})", "if {} { 1.x }", "title({}); title(1)", "[3, {}].sort(); 1.x", "range({}, 3); 1.x", "fixed(\"f\").patrol({}, 1)"] {
+        for call in [
+            "{} + mobile(\"q\")",
+            "mobile({})",
+            "mobile(\"q\").at({}, {})",
+            "{}.nonsense",
+            "{}.nonsense()",
+            "{}[#{}]",
+            "for i in {} { i.x.y.z.w }",
+            "throw {}",
+            "expect(\"a\", {})",
+            "-{}",
+            "sin({})",
+            "if {} { 1.x }",
+            "title({}); title(1)",
+            "[3, {}].sort(); 1.x",
+            "range({}, 3); 1.x",
+            "fixed(\"f\").patrol({}, 1)",
+        ] {
             let script = call.replace("{}", value);
             let folder = Folder::with(&[("scene.rhai", &script)]);
             let Err(error) = folder.run("scene.rhai", &Options::default()) else { continue };

@@ -50,21 +50,21 @@ fn a_script_and_its_plain_scene_run_to_the_same_bits() {
 #[test]
 fn a_malformed_plain_scene_is_told_with_its_line() {
     assert_snapshot!(plain_error("(\n    title: \"x\",\n    bodis: [],\n)", &Options::default()), @r#"
-    error: not a scene: Unexpected field named `bodis` in `Scene`, expected one of `title`, `settings`, `params`, or `bodies` instead
+    error: not a scene: unexpected field named `bodis` in `Scene`, expected one of `title`, `settings`, `params`, or `bodies` instead
      --> scene.ron:3:5
       |
     3 |     bodis: [],
       |     ^^^^^
     "#);
     assert_snapshot!(plain_error("(\n    settings: (time_step: \"fast\"),\n)", &Options::default()), @r#"
-    error: not a scene: Expected float
+    error: not a scene: expected float
      --> scene.ron:2:26
       |
     2 |     settings: (time_step: "fast"),
       |                          ^
     "#);
     assert_snapshot!(plain_error("(title: \"x\"", &Options::default()), @r#"
-    error: not a scene: Expected comma
+    error: not a scene: expected comma
      --> scene.ron:1:10
       |
     1 | (title: "x"
@@ -106,7 +106,7 @@ fn what_is_no_scenario_is_refused() {
     fs::write(folder.path("bom.rhai"), "\u{feff}steps(3);").unwrap();
     let load = |name: &str| folder.load(name, &Options::default()).map(|scenario| scenario.scene().settings.steps);
     assert_snapshot!(load("missing.rhai").unwrap_err(), @r#"
-    error: cannot read it: no such file or directory
+    error: cannot read missing.rhai: no such file or directory
     --> missing.rhai
     "#);
     assert_snapshot!(load("notes.txt").unwrap_err(), @r#"
@@ -115,11 +115,11 @@ fn what_is_no_scenario_is_refused() {
      = help: a scenario's file name ends in .rhai or .ron
     "#);
     assert_snapshot!(load("folder.rhai").unwrap_err(), @r#"
-    error: cannot read it: it is not a file
+    error: cannot read folder.rhai: it is not a file
     --> folder.rhai
     "#);
     assert_snapshot!(load("latin.rhai").unwrap_err(), @r#"
-    error: cannot read it: line 2 is not UTF-8 text
+    error: cannot read latin.rhai: line 2 is not UTF-8 text
     --> latin.rhai
      = help: save it as UTF-8
     "#);

@@ -47,7 +47,8 @@ fn a_word_shows_all_ways_of_writing_it() {
 fn definitions_for_editors_hold_every_group() {
     let folder = tempfile::TempDir::new().unwrap();
     let files = words::write_definitions(&folder.path().join("new")).unwrap();
-    let mut names: Vec<String> = files.iter().map(|file| file.file_name().unwrap().to_string_lossy().into_owned()).collect();
+    let mut names: Vec<String> =
+        files.iter().map(|file| file.file_name().unwrap().to_string_lossy().into_owned()).collect();
     names.sort();
     let groups = ["bodies", "callbacks", "expectations", "mathematics", "motion", "random", "settings", "world"];
     assert_eq!(names, groups.map(|group| format!("{group}.d.rhai")));

@@ -42,9 +42,11 @@ fn powers_stay_whole_while_they_can() {
     check("pow(3, 2)", "9");
 }
 
+type Function = fn(f64) -> f64;
+
 #[test]
 fn functions_are_those_of_libm_for_whole_numbers_too() {
-    let functions: [(&str, fn(f64) -> f64); 16] = [
+    let functions: [(&str, Function); 16] = [
         ("sin", libm::sin),
         ("cos", libm::cos),
         ("tan", libm::tan),
@@ -68,7 +70,10 @@ fn functions_are_those_of_libm_for_whole_numbers_too() {
         }
         check(&format!("{name}(3) == {:?}", function(3.0)), "true");
     }
-    check(&format!("asin(0.3) + acos(0.3) + atanh(0.3) == {:?}", libm::asin(0.3) + libm::acos(0.3) + libm::atanh(0.3)), "true");
+    check(
+        &format!("asin(0.3) + acos(0.3) + atanh(0.3) == {:?}", libm::asin(0.3) + libm::acos(0.3) + libm::atanh(0.3)),
+        "true",
+    );
     check(&format!("atan2(1, -2) == {:?}", libm::atan2(1.0, -2.0)), "true");
     check(&format!("hypot(3, 4.5) == {:?}", libm::hypot(3.0, 4.5)), "true");
     check(&format!("3.3 ** 7.7 == {:?}", libm::pow(3.3, 7.7)), "true");
@@ -136,9 +141,8 @@ fn sorting_is_stable_puts_nan_last_and_takes_differences() {
 
 #[test]
 fn one_seed_gives_one_sequence() {
-    let draw = |seed: &str| {
-        printed(&format!("{seed} for i in 0..5 {{ print(random(-1, 1)); print(random_int(1, 6)); }}"))
-    };
+    let draw =
+        |seed: &str| printed(&format!("{seed} for i in 0..5 {{ print(random(-1, 1)); print(random_int(1, 6)); }}"));
     assert_eq!(draw("seed(42);"), draw("seed(42);"));
     assert_eq!(draw("seed(0);"), draw(""), "the default seed is 0");
     assert_ne!(draw("seed(42);"), draw("seed(43);"));

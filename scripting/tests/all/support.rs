@@ -10,10 +10,10 @@ use choque_scripting::{Expectation, Options, Output, Run, Scenario, Step};
 use tempfile::TempDir;
 
 /// A folder with files, gone when dropped.
-pub struct Folder(TempDir);
+pub(crate) struct Folder(TempDir);
 
 impl Folder {
-    pub fn with(files: &[(&str, &str)]) -> Self {
+    pub(crate) fn with(files: &[(&str, &str)]) -> Self {
         let folder = Folder(TempDir::new().unwrap());
         for (name, text) in files {
             let path = folder.path(name);
@@ -23,16 +23,16 @@ impl Folder {
         folder
     }
 
-    pub fn path(&self, name: &str) -> PathBuf {
+    pub(crate) fn path(&self, name: &str) -> PathBuf {
         self.0.path().join(name)
     }
 
-    pub fn load(&self, name: &str, options: &Options) -> Result<Scenario, String> {
+    pub(crate) fn load(&self, name: &str, options: &Options) -> Result<Scenario, String> {
         Scenario::load(&self.path(name), options).map_err(|error| self.shorten(&error.to_string()))
     }
 
     /// Loads, runs to the end and concludes; gives the first error on the way, with short file names.
-    pub fn run(&self, name: &str, options: &Options) -> Result<(Run, Vec<Expectation>), String> {
+    pub(crate) fn run(&self, name: &str, options: &Options) -> Result<(Run, Vec<Expectation>), String> {
         let scenario = self.load(name, options)?;
         let short = |error: choque_scripting::Diagnostic| self.shorten(&error.to_string());
         let mut run = scenario.start().map_err(short)?;
@@ -48,24 +48,24 @@ impl Folder {
 }
 
 /// The scene a script makes.
-pub fn scene(script: &str) -> Scene {
+pub(crate) fn scene(script: &str) -> Scene {
     scene_with(script, &Options::default())
 }
 
-pub fn scene_with(script: &str, options: &Options) -> Scene {
+pub(crate) fn scene_with(script: &str, options: &Options) -> Scene {
     let folder = Folder::with(&[("scene.rhai", script)]);
     folder.load("scene.rhai", options).unwrap_or_else(|error| panic!("{error}")).scene().clone()
 }
 
 /// A script run to its end.
-pub fn run(script: &str) -> (Run, Vec<Expectation>) {
+pub(crate) fn run(script: &str) -> (Run, Vec<Expectation>) {
     Folder::with(&[("scene.rhai", script)])
         .run("scene.rhai", &Options::default())
         .unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// What a script prints, up to the end of its main part.
-pub fn printed(script: &str) -> Vec<String> {
+pub(crate) fn printed(script: &str) -> Vec<String> {
     let folder = Folder::with(&[("scene.rhai", script)]);
     let (options, lines) = listening();
     folder.load("scene.rhai", &options).unwrap_or_else(|error| panic!("{error}"));
@@ -73,7 +73,7 @@ pub fn printed(script: &str) -> Vec<String> {
 }
 
 /// Options whose output is gathered.
-pub fn listening() -> (Options, Rc<RefCell<Vec<String>>>) {
+pub(crate) fn listening() -> (Options, Rc<RefCell<Vec<String>>>) {
     let lines = Rc::new(RefCell::new(Vec::new()));
     let heard = lines.clone();
     let output = Output::to(move |line| heard.borrow_mut().push(line.to_owned()));
@@ -81,16 +81,16 @@ pub fn listening() -> (Options, Rc<RefCell<Vec<String>>>) {
 }
 
 /// The whole text of the error a script ends with, loading or running.
-pub fn error(script: &str) -> String {
+pub(crate) fn error(script: &str) -> String {
     error_with(script, &Options::default())
 }
 
-pub fn error_with(script: &str, options: &Options) -> String {
+pub(crate) fn error_with(script: &str, options: &Options) -> String {
     error_in(&[("scene.rhai", script)], options)
 }
 
 /// The same of the first of several files.
-pub fn error_in(files: &[(&str, &str)], options: &Options) -> String {
+pub(crate) fn error_in(files: &[(&str, &str)], options: &Options) -> String {
     match Folder::with(files).run(files[0].0, options) {
         Ok(_) => panic!("no error from:\n{}", files[0].1),
         Err(error) => error,
@@ -98,7 +98,7 @@ pub fn error_in(files: &[(&str, &str)], options: &Options) -> String {
 }
 
 /// `--set` options.
-pub fn set(values: &[(&str, f64)]) -> Options {
+pub(crate) fn set(values: &[(&str, f64)]) -> Options {
     let set = values.iter().map(|(name, value)| ((*name).to_owned(), *value)).collect();
     Options { set, ..Options::default() }
 }
