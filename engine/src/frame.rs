@@ -27,14 +27,14 @@ impl Frame {
     /// R(θ)·v: a direction out of the frame into the world.
     #[inline]
     #[must_use]
-    pub fn out(&self, v: Vec2) -> Vec2 {
+    pub fn outward(&self, v: Vec2) -> Vec2 {
         Vec2::new(self.cos * v.x - self.sin * v.y, self.sin * v.x + self.cos * v.y)
     }
 
     /// R(θ)ᵀ·v: a direction from the world into the frame.
     #[inline]
     #[must_use]
-    pub fn into(&self, v: Vec2) -> Vec2 {
+    pub fn inward(&self, v: Vec2) -> Vec2 {
         Vec2::new(self.cos * v.x + self.sin * v.y, self.cos * v.y - self.sin * v.x)
     }
 
@@ -45,7 +45,7 @@ impl Frame {
     #[must_use]
     pub fn seen_from(&self, other: &Frame) -> Frame {
         Frame {
-            o: other.into(self.o - other.o),
+            o: other.inward(self.o - other.o),
             cos: self.cos * other.cos + self.sin * other.sin,
             sin: self.sin * other.cos - self.cos * other.sin,
         }
@@ -55,7 +55,7 @@ impl Frame {
     #[inline]
     #[must_use]
     pub fn place(&self, point: Vec2) -> Vec2 {
-        self.o + self.out(point)
+        self.o + self.outward(point)
     }
 }
 

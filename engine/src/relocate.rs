@@ -24,9 +24,9 @@ pub struct Placed {
 /// Moves the reference if it is mobile, else the vertex's owner, by (depth + ε) along the face's normal.
 pub fn separate(bodies: &mut Bodies, contact: &Contact, epsilon: f64) -> Placed {
     let Contact { owner, reference, vertex, on_face, face, depth } = *contact;
-    let normal = bodies.frame[reference].out(face.normal());
-    let r_owner = bodies.frame[owner].out(vertex);
-    let r_reference = bodies.frame[reference].out(on_face);
+    let normal = bodies.frame[reference].outward(face.normal());
+    let r_owner = bodies.frame[owner].outward(vertex);
+    let r_reference = bodies.frame[reference].outward(on_face);
     let point = if bodies.is_mobile(reference) {
         bodies.shift(reference, -normal * (depth + epsilon));
         bodies.frame[owner].o + r_owner

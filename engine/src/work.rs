@@ -38,10 +38,12 @@ work! {
     bounds: "bounds computed",
     /// Comparisons of bounds in the broad phase.
     bounds_compared: "bounds compared",
-    /// Pairs handed to the vertex test.
+    /// Pairs handed to the detection.
     pairs_tested: "pairs tested",
     /// Vertices brought into another body's frame.
     vertices_transformed: "vertices transformed",
+    /// Separating axes tried by the complete test.
+    axes_tested: "axes tested",
     /// Pairs listed as overlapping.
     pairs_listed: "pairs listed",
     /// Relocations made.

@@ -3,6 +3,7 @@
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::fs;
+use std::io::ErrorKind;
 use std::path::{Component, Path, PathBuf};
 
 use crate::error::{Complaint, Diagnostic};
@@ -44,6 +45,7 @@ impl Library {
             _ => PathBuf::from("."),
         };
         let library = library.map(Path::to_owned).or_else(|| scenarios_above(&folder));
+        let library = library.filter(|library| *library != folder);
         Library { roots: std::iter::once(folder).chain(library).collect(), texts: RefCell::default() }
     }
 
@@ -83,7 +85,7 @@ impl Library {
         let wanted = relative.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let folder = relative.parent().unwrap_or(Path::new(""));
         let near = self.roots.iter().find_map(|root| {
-            let names = names_in(&root.join(folder));
+            let names = names_below(root, folder);
             nearest(&wanted, names.iter().map(String::as_str)).map(|name| folder.join(name))
         });
         complaint.maybe_hint(near.map(|near| format!("did you mean \"{}\"?", near.display())))
@@ -137,8 +139,11 @@ fn scenarios_above(folder: &Path) -> Option<PathBuf> {
     folder.canonicalize().ok()?.ancestors().find(named).map(Path::to_owned)
 }
 
-fn names_in(folder: &Path) -> Vec<String> {
-    let Ok(entries) = fs::read_dir(folder) else { return Vec::new() };
+/// The names in a folder below a root; none of a folder that a link leads out to.
+fn names_below(root: &Path, folder: &Path) -> Vec<String> {
+    let place = root.join(folder).canonicalize().ok().zip(root.canonicalize().ok());
+    let Some((place, _)) = place.filter(|(place, root)| place.starts_with(root)) else { return Vec::new() };
+    let Ok(entries) = fs::read_dir(place) else { return Vec::new() };
     let mut names: Vec<String> =
         entries.flatten().map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
     names.sort(); // folders list in any order; a hint must not
@@ -168,8 +173,11 @@ pub(crate) fn read_text(file: &Path, shown: &Path) -> Result<String, Diagnostic>
     Ok(text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text))
 }
 
-/// A system's error without its number.
+/// A system's error in words that are the same on every system, where it is one of the usual ones.
 fn plain(error: &std::io::Error) -> String {
-    let text = error.to_string();
-    text.split(" (os error").next().unwrap_or(&text).to_lowercase()
+    match error.kind() {
+        ErrorKind::NotFound => "there is no such file".to_owned(),
+        ErrorKind::PermissionDenied => "there is no permission".to_owned(),
+        _ => error.to_string(),
+    }
 }

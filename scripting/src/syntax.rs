@@ -112,7 +112,7 @@ fn not_assignable(place: &Place) -> Complaint {
         let rest = rest.split(['}', ';']).next()?.trim_end();
         rest.contains('=').then(|| format!("write `{receiver}[{name}]{rest}`"))
     });
-    complaint.maybe_hint(rewritten)
+    complaint.hint("put it into a variable first: let body = …; body.vx = 1").maybe_hint(rewritten)
 }
 
 /// Rhai's own sentences begin with a capital; ours stand after "error:".

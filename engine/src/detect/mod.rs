@@ -1,5 +1,6 @@
 //! Detection (§2.3): whether and where two bodies overlap.
 
+pub mod complete;
 pub mod overlap;
 pub mod vertices;
 

@@ -1,6 +1,9 @@
 //! Exchange (§2.5): what two bodies hand each other at a collision.
 
 pub mod document;
+pub mod flat;
+pub mod impact;
+pub mod impulse;
 
 use crate::bodies::Role;
 

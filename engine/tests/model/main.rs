@@ -1,5 +1,6 @@
 //! The document's model, held to worked values, to its formulas, and to itself.
 
+mod impacts;
 mod laws;
 mod needs;
 mod random_scenes;

@@ -4,10 +4,10 @@ use choque_engine::scene::{Body, BroadPhaseChoice, Kind, Part, Patrol, Scene, Se
 use choque_engine::{Rect, World};
 
 /// SplitMix64 (Steele, Lea, Flood 2014): all the randomness these tests need.
-struct Random(u64);
+pub(crate) struct Random(pub(crate) u64);
 
 impl Random {
-    fn next(&mut self) -> u64 {
+    pub(crate) fn next(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
@@ -15,7 +15,7 @@ impl Random {
     }
 
     /// From `least` up to `greatest`.
-    fn between(&mut self, least: f64, greatest: f64) -> f64 {
+    pub(crate) fn between(&mut self, least: f64, greatest: f64) -> f64 {
         least + (greatest - least) * ((self.next() >> 11) as f64 / (1_u64 << 53) as f64)
     }
 

@@ -19,7 +19,7 @@ pub(crate) mod module {
         of_body(&context, *body, "x", |body| body.at.0, |world, id| world.position(id).x)
     }
 
-    #[rhai_fn(set = "x", return_raw)]
+    #[rhai_fn(set = "x", pure, return_raw)]
     pub fn set_x(context: NativeCallContext, body: &mut Body, x: Number) -> RhaiResultOf<()> {
         write(&context, *body, "x", &x, |world, id, x| world.set_position(id, Vec2::new(x, world.position(id).y)))
     }
@@ -30,7 +30,7 @@ pub(crate) mod module {
         of_body(&context, *body, "z", |body| body.at.1, |world, id| world.position(id).y)
     }
 
-    #[rhai_fn(set = "z", return_raw)]
+    #[rhai_fn(set = "z", pure, return_raw)]
     pub fn set_z(context: NativeCallContext, body: &mut Body, z: Number) -> RhaiResultOf<()> {
         write(&context, *body, "z", &z, |world, id, z| world.set_position(id, Vec2::new(world.position(id).x, z)))
     }
@@ -41,7 +41,7 @@ pub(crate) mod module {
         of_body(&context, *body, "angle", |body| body.angle, World::angle)
     }
 
-    #[rhai_fn(set = "angle", return_raw)]
+    #[rhai_fn(set = "angle", pure, return_raw)]
     pub fn set_angle(context: NativeCallContext, body: &mut Body, rad: Number) -> RhaiResultOf<()> {
         write(&context, *body, "angle", &rad, World::set_angle)
     }
@@ -52,7 +52,7 @@ pub(crate) mod module {
         of_body(&context, *body, "vx", |body| initial_velocity(body).x, |world, id| world.velocity(id).x)
     }
 
-    #[rhai_fn(set = "vx", return_raw)]
+    #[rhai_fn(set = "vx", pure, return_raw)]
     pub fn set_vx(context: NativeCallContext, body: &mut Body, vx: Number) -> RhaiResultOf<()> {
         write(&context, *body, "vx", &vx, |world, id, vx| world.set_velocity(id, Vec2::new(vx, world.velocity(id).y)))
     }
@@ -63,7 +63,7 @@ pub(crate) mod module {
         of_body(&context, *body, "vz", |body| initial_velocity(body).y, |world, id| world.velocity(id).y)
     }
 
-    #[rhai_fn(set = "vz", return_raw)]
+    #[rhai_fn(set = "vz", pure, return_raw)]
     pub fn set_vz(context: NativeCallContext, body: &mut Body, vz: Number) -> RhaiResultOf<()> {
         write(&context, *body, "vz", &vz, |world, id, vz| world.set_velocity(id, Vec2::new(world.velocity(id).x, vz)))
     }
@@ -74,7 +74,7 @@ pub(crate) mod module {
         of_body(&context, *body, "spin", |body| body.spin.unwrap_or(0.0), World::spin)
     }
 
-    #[rhai_fn(set = "spin", return_raw)]
+    #[rhai_fn(set = "spin", pure, return_raw)]
     pub fn set_spin(context: NativeCallContext, body: &mut Body, rad_per_s: Number) -> RhaiResultOf<()> {
         write(&context, *body, "spin", &rad_per_s, World::set_spin)
     }

@@ -87,7 +87,7 @@ pub(crate) mod module {
     }
 
     /// Never a new body: writing through `world["blade"].spin = 0` puts the same body back.
-    #[rhai_fn(index_set, return_raw)]
+    #[rhai_fn(index_set, pure, return_raw)]
     pub fn put_back(context: NativeCallContext, world: &mut World, name: Text, value: Dynamic) -> RhaiResultOf<()> {
         put(&context, *world, &name, &value)
     }

@@ -126,6 +126,18 @@ fn a_handle_of_the_main_part_serves_in_closures() {
 }
 
 #[test]
+fn a_constant_handle_reaches_its_body_from_everywhere() {
+    let (_, expectations) = run(r#"
+        const CAR = mobile("car").rect(1, 1);
+        time_step(1); steps(2);
+        fn on_step(world) { global::CAR.vx = 3; global::CAR.vz += 1; global::CAR.push(0, 0); }
+        fn on_collision(world, hit) { hit.a.vx = 0; }
+        expect("written", |world| CAR.x == 6 && CAR.z == 3 && CAR.vz == 2);
+        "#);
+    assert!(expectations[0].held, "{expectations:?}");
+}
+
+#[test]
 fn callbacks_see_imports_and_constants_of_the_script() {
     let script = r#"
         import "lib/helpers" as helpers;

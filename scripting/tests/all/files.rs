@@ -106,7 +106,7 @@ fn what_is_no_scenario_is_refused() {
     fs::write(folder.path("bom.rhai"), "\u{feff}steps(3);").unwrap();
     let load = |name: &str| folder.load(name, &Options::default()).map(|scenario| scenario.scene().settings.steps);
     assert_snapshot!(load("missing.rhai").unwrap_err(), @r#"
-    error: cannot read missing.rhai: no such file or directory
+    error: cannot read missing.rhai: there is no such file
     --> missing.rhai
     "#);
     assert_snapshot!(load("notes.txt").unwrap_err(), @r#"

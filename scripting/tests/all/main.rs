@@ -3,7 +3,6 @@
 #![allow(clippy::unwrap_used)] // a test that cannot go on should stop
 
 mod callbacks;
-mod diagnostics;
 mod expectations;
 mod files;
 mod manual;
@@ -12,3 +11,7 @@ mod params;
 mod sandbox;
 mod support;
 mod words;
+mod wrong_names;
+mod wrong_places;
+mod wrong_rules;
+mod wrong_values;

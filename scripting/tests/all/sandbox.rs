@@ -55,6 +55,7 @@ fn a_link_that_leads_out_is_refused() {
         ("script.rhai", r#"import "link" as s;"#),
         ("folder.rhai", r#"import "out/secret" as s;"#),
         ("model.rhai", r#"mobile("a").model("link.obj");"#),
+        ("near.rhai", r#"import "out/secre" as s;"#),
         ("inside.rhai", r#"import "alias" as s; s::tell();"#),
         ("lib/own.rhai", "fn tell() { 1 }"),
     ]);
@@ -75,6 +76,7 @@ fn a_link_that_leads_out_is_refused() {
     "#);
     assert!(load("folder.rhai").unwrap_err().contains("leads out"));
     assert!(load("model.rhai").unwrap_err().contains("leads out"));
+    assert!(!load("near.rhai").unwrap_err().contains("secret"), "no hint of what is outside");
     assert_eq!(load("inside.rhai"), Ok(()), "a link that stays inside is as good as a file");
 }
 

@@ -97,6 +97,11 @@ pub(crate) fn error_in(files: &[(&str, &str)], options: &Options) -> String {
     }
 }
 
+/// The error of a script with a body that runs, and what goes wrong on its second line.
+pub(crate) fn while_running(callback: &str) -> String {
+    error(&format!("mobile(\"car\").rect(1, 1);\n{callback}"))
+}
+
 /// `--set` options.
 pub(crate) fn set(values: &[(&str, f64)]) -> Options {
     let set = values.iter().map(|(name, value)| ((*name).to_owned(), *value)).collect();

@@ -1,0 +1,115 @@
+//! Newton–Euler impulses with restitution and Coulomb friction.
+//!
+//! ```text
+//!              n ^                u = v_j + ω_j × r_j − v_i − ω_i × r_i   at each point, along t and n
+//!                │  j             du = K dp: what an impulse p on j (and −p on i) changes,
+//!        ────────┼──> t           K_ab = (1/m_i + 1/m_j) δ_ab + (r_i×a)(r_i×b)/I_i + (r_j×a)(r_j×b)/I_j
+//!             i  │
+//! ```
+//!
+//! **The law.** One point: Routh's process (1891): the impulse grows from zero, friction opposes slip at every
+//! moment and sticks where it can; compression ends when u_n = 0, restitution when the normal impulse has given
+//! back e² of the work that compression took (Stronge 1990). Without a change of slip this is Newton's
+//! u_n⁺ = −e u_n⁻; with one, Newton's law can create energy, and this cannot. Two points (a flat hit) act together:
+//! without friction, impulses ≥ 0 such that no point parts more slowly than Newton's law asks and those that push
+//! part exactly so; with friction, sticking or sliding is decided at the end of the impact, and should that create
+//! energy, restitution is lowered until it does not.
+
+use super::flat::Flat;
+use super::impact::{Impact, Surface};
+use crate::area::Vec2;
+use crate::bodies::{Bodies, Role};
+use crate::frame::perp;
+
+/// A point of contact in world directions: the arms from both centres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Arms {
+    /// From the centre of i.
+    pub r_i: Vec2,
+    /// From the centre of j.
+    pub r_j: Vec2,
+}
+
+/// One over the masses and moments of a pair; zero for a body that collisions do not move.
+#[derive(Clone, Copy, Debug)]
+struct Inverse {
+    mass_i: f64,
+    mass_j: f64,
+    moment_i: f64,
+    moment_j: f64,
+}
+
+fn cross(a: Vec2, b: Vec2) -> f64 {
+    a.x * b.y - a.y * b.x
+}
+
+impl Inverse {
+    fn of(bodies: &Bodies, i: usize, j: usize) -> Self {
+        let of = |body: usize| match bodies.role[body] {
+            Role::Mobile => (1.0 / bodies.inertia[body].mass, 1.0 / bodies.inertia[body].moment),
+            Role::FixedWithPhysics | Role::Fixed => (0.0, 0.0),
+        };
+        let ((mass_i, moment_i), (mass_j, moment_j)) = (of(i), of(j));
+        Inverse { mass_i, mass_j, moment_i, moment_j }
+    }
+
+    /// K between an impulse along `b` at one point and the change of u along `a` at another.
+    fn response(&self, at: &Arms, a: Vec2, from: &Arms, b: Vec2) -> f64 {
+        (self.mass_i + self.mass_j) * a.dot(&b)
+            + self.moment_i * cross(at.r_i, a) * cross(from.r_i, b)
+            + self.moment_j * cross(at.r_j, a) * cross(from.r_j, b)
+    }
+}
+
+/// u: how fast j moves away from i at a point.
+fn relative_velocity(bodies: &Bodies, i: usize, j: usize, at: &Arms) -> Vec2 {
+    let of = |body: usize, r: Vec2| bodies.motion[body].v + perp(r) * bodies.motion[body].omega;
+    of(j, at.r_j) - of(i, at.r_i)
+}
+
+/// Applies p to j and −p to i.
+fn apply(bodies: &mut Bodies, i: usize, j: usize, inverse: &Inverse, at: &Arms, p: Vec2) {
+    bodies.motion[i].v -= p * inverse.mass_i;
+    bodies.motion[i].omega -= cross(at.r_i, p) * inverse.moment_i;
+    bodies.motion[j].v += p * inverse.mass_j;
+    bodies.motion[j].omega += cross(at.r_j, p) * inverse.moment_j;
+}
+
+/// Exchanges motion at one or two points, `n` pointing from i to j. `false` when the bodies are parting at every
+/// point and nothing happens.
+pub fn exchange(bodies: &mut Bodies, (i, j): (usize, usize), n: Vec2, points: &[Arms], surface: Surface) -> bool {
+    let inverse = Inverse::of(bodies, i, j);
+    let t = -perp(n);
+    let approaching = |at: &&Arms| relative_velocity(bodies, i, j, at).dot(&n) < 0.0;
+    match *points {
+        [at] if points.iter().any(|at| approaching(&at)) => {
+            let u = relative_velocity(bodies, i, j, &at);
+            let point = Impact {
+                k_tt: inverse.response(&at, t, &at, t),
+                k_tn: inverse.response(&at, t, &at, n),
+                k_nn: inverse.response(&at, n, &at, n),
+            };
+            let p = point.impulse(u.dot(&t), u.dot(&n), surface);
+            apply(bodies, i, j, &inverse, &at, t * p.t + n * p.n);
+            true
+        }
+        [one, two] if points.iter().any(|at| approaching(&at)) => {
+            let mean = Arms { r_i: (one.r_i + two.r_i) * 0.5, r_j: (one.r_j + two.r_j) * 0.5 };
+            let ends = [one, two];
+            let face = Flat {
+                k_nn: ends.map(|row| ends.map(|column| inverse.response(&row, n, &column, n))),
+                k_nt: ends.map(|row| inverse.response(&row, n, &mean, t)),
+                k_tt: inverse.response(&mean, t, &mean, t),
+            };
+            let u_n = ends.map(|at| relative_velocity(bodies, i, j, &at).dot(&n));
+            let u_t = relative_velocity(bodies, i, j, &mean).dot(&t);
+            let p = face.impulse(u_t, u_n, surface);
+            apply(bodies, i, j, &inverse, &mean, t * p.t);
+            for (at, p_n) in ends.iter().zip(p.n) {
+                apply(bodies, i, j, &inverse, at, n * p_n);
+            }
+            true
+        }
+        _ => false,
+    }
+}
