@@ -1,6 +1,7 @@
 //! The bodies of a running world: one array per quantity, index = order of creation.
 
 use crate::area::{Rect, Vec2};
+use crate::exchange::impact::Surface;
 use crate::frame::{Angle, Frame, add_kept};
 use crate::trig::sin_cos;
 
@@ -48,6 +49,8 @@ pub struct Bodies {
     pub role: Vec<Role>,
     /// Mass and moment of inertia of each.
     pub inertia: Vec<Inertia>,
+    /// Restitution and friction of each; only the impulse exchange has them, without it there are none.
+    pub surface: Vec<Surface>,
     /// The rectangles of all bodies, body after body.
     pub rects: Vec<Rect>,
     /// Where each body's rectangles begin in `rects`; one more entry closes the last.

@@ -6,10 +6,11 @@ use crate::area::{Rect, Vec2};
 use crate::bodies::{Bodies, Inertia, Motion, Role};
 use crate::check::{self, BadNumber};
 use crate::error::SceneError;
+use crate::exchange::impact::Surface;
 use crate::frame::{Angle, Frame};
 use crate::plan::Census;
 use crate::prescribed::{Course, Prescription, Swing};
-use crate::scene::{Body, Kind, Part, Scene};
+use crate::scene::{Body, ExchangeRule, Kind, Part, Scene};
 
 /// Bodies and rectangles are counted by u32.
 const MOST: usize = u32::MAX as usize / 4;
@@ -242,6 +243,12 @@ pub fn bodies(scene: &Scene, origin: Vec2) -> Bodies {
         bodies.motion.push(Motion { v: vec2(body.velocity.unwrap_or_default()), omega: body.spin.unwrap_or_default() });
         bodies.role.push(role(body));
         bodies.inertia.push(inertia(body));
+        if scene.settings.exchange == ExchangeRule::Impulse {
+            bodies.surface.push(Surface {
+                restitution: body.restitution.unwrap_or(scene.settings.restitution),
+                friction: body.friction.unwrap_or(scene.settings.friction),
+            });
+        }
         bodies.rects.extend(areas(body, scene.settings.plane));
         bodies.first_rect.push(bodies.rects.len() as u32);
     }

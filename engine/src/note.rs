@@ -5,8 +5,9 @@ use core::fmt;
 use crate::area::{Rect, Vec2};
 use crate::broad_phase::BroadPhase;
 use crate::check::shown;
-use crate::detect::{overlap, vertices};
+use crate::detect::{self, overlap};
 use crate::load;
+use crate::plan::ExchangePlan;
 use crate::scene::{Body, Kind, Part, Scene};
 use crate::work::Work;
 use crate::world::{BodyId, World};
@@ -130,9 +131,11 @@ fn starts_overlapped(world: &World) -> Vec<Note> {
 
 fn overlap_note(world: &World, i: usize, j: usize, depth: f64) -> Note {
     let name = |i: usize| world.name(BodyId(i as u32));
-    let outcome = match vertices::find(&world.bodies, i, j, &mut Work::default()) {
-        Some(_) => "the first iteration will push them apart",
-        None => "no vertex of one lies in the other, so detection(\"vertices\") does not see it",
+    let is_seen = detect::collides(world.plan.detection, &world.bodies, i, j, &mut Work::default());
+    let outcome = match (is_seen, world.plan.exchange) {
+        (false, _) => "no vertex of one lies in the other, so detection(\"vertices\") does not see it",
+        (true, ExchangePlan::Document { .. }) => "the first iteration will push them apart",
+        (true, ExchangePlan::Impulse) => "the impulse exchange does not move bodies, so it stays until they part",
     };
     let text = format!("it starts {} m deep in \"{}\"; {outcome}", shown(rounded(depth)), name(j));
     Note { body: Some(name(i).to_owned()), text }

@@ -17,10 +17,10 @@ pub struct Plan {
     pub time_step: f64,
     /// Iterations of a run.
     pub steps: u64,
-    /// ε of the relocation (§2.4) \[m\].
-    pub epsilon: f64,
-    /// μ_L and μ_A of the exchange (§2.5).
-    pub losses: Losses,
+    /// How overlaps are found.
+    pub detection: Detection,
+    /// How motion is handed over.
+    pub exchange: ExchangePlan,
     /// How bodies fly between collisions.
     pub flight: FlightPlan,
     /// How pairs worth testing are found.
@@ -30,6 +30,20 @@ pub struct Plan {
     /// Where the world's coordinates have their own zero: a round number near the scene when it lies far
     /// out, (0, 0) for every other scene. All stages compute from there, so distance costs no accuracy.
     pub origin: Vec2,
+}
+
+/// How motion is handed over, with the coefficients it needs and no others.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ExchangePlan {
+    /// Relocation (§2.4), then the document's rules (§2.5).
+    Document {
+        /// ε of the relocation \[m\].
+        epsilon: f64,
+        /// μ_L and μ_A.
+        losses: Losses,
+    },
+    /// Newton–Euler impulses; nothing is relocated. Each body has its own restitution and friction.
+    Impulse,
 }
 
 /// How mobile bodies fly between collisions.
@@ -99,8 +113,17 @@ impl Plan {
         Ok(Plan {
             time_step: settings.time_step,
             steps: settings.steps,
-            epsilon: settings.epsilon,
-            losses: Losses { mu_l: settings.mu_l, mu_a: settings.mu_a },
+            detection: settings.detection.unwrap_or(match settings.exchange {
+                ExchangeRule::Document => Detection::Vertices,
+                ExchangeRule::Impulse => Detection::Complete,
+            }),
+            exchange: match settings.exchange {
+                ExchangeRule::Document => ExchangePlan::Document {
+                    epsilon: settings.epsilon,
+                    losses: Losses { mu_l: settings.mu_l, mu_a: settings.mu_a },
+                },
+                ExchangeRule::Impulse => ExchangePlan::Impulse,
+            },
             flight: FlightPlan::resolve(settings, scene),
             broad_phase: BroadPhasePlan::resolve(scene, &census),
             census,
@@ -126,16 +149,13 @@ fn check_settings(settings: &Settings) -> Result<(), BadNumber> {
 
 /// Refuses the choices this version does not have, rather than running something else in their place.
 fn check_models(settings: &Settings) -> Result<(), SceneError> {
-    let refuse = |setting, word, instead| Err(SceneError::NotAvailable { setting, word, instead });
-    if settings.exchange != ExchangeRule::Document {
-        return refuse("exchange", settings.exchange.word(), "exchange(\"document\") is");
-    }
-    if settings.motion != MotionRule::Stepped {
-        return refuse("motion", settings.motion.word(), "motion(\"stepped\") is");
-    }
-    match settings.detection {
-        None | Some(Detection::Vertices) => Ok(()),
-        Some(other) => refuse("detection", other.word(), "detection(\"vertices\") is"),
+    match settings.motion {
+        MotionRule::Stepped => Ok(()),
+        MotionRule::Continuous => Err(SceneError::NotAvailable {
+            setting: "motion",
+            word: settings.motion.word(),
+            instead: "motion(\"stepped\") is",
+        }),
     }
 }
 
@@ -182,7 +202,7 @@ impl Plan {
     /// What is modelled, a line each.
     #[must_use]
     pub fn modelled(&self) -> Vec<String> {
-        let Plan { census, losses, .. } = self;
+        let census = &self.census;
         let mut lines = vec![
             format!("bodies: {census}"),
             format!("advance: {}", self.flight),
@@ -192,15 +212,29 @@ impl Plan {
             lines.insert(2, format!("prescribed: {} patrol or swing, from the time", census.prescribed));
         }
         if self.broad_phase != BroadPhasePlan::Nothing {
-            lines.push("detect: vertex in rectangle (§2.3)".to_owned());
-            lines.push(format!("relocate: least distance + ε = {} m (§2.4)", self.epsilon));
-            let cases = census.exchange_cases().join(", ");
-            lines.push(format!("exchange: document, μ_L = {}, μ_A = {}: {cases}", losses.mu_l, losses.mu_a));
+            lines.push(match self.detection {
+                Detection::Vertices => "detect: vertex in rectangle (§2.3)".to_owned(),
+                Detection::Complete => "detect: separating axes".to_owned(),
+            });
+            lines.extend(self.exchange_lines());
         }
         if self.origin != Vec2::zeros() {
             lines.push(format!("origin: ({}, {}), for accuracy far out", self.origin.x, self.origin.y));
         }
         lines
+    }
+
+    fn exchange_lines(&self) -> Vec<String> {
+        match self.exchange {
+            ExchangePlan::Document { epsilon, losses: Losses { mu_l, mu_a } } => {
+                let cases = self.census.exchange_cases().join(", ");
+                vec![
+                    format!("relocate: least distance + ε = {epsilon} m (§2.4)"),
+                    format!("exchange: document, μ_L = {mu_l}, μ_A = {mu_a}: {cases}"),
+                ]
+            }
+            ExchangePlan::Impulse => vec!["exchange: impulse, restitution and friction of each pair".to_owned()],
+        }
     }
 
     /// What this scene does not need, and therefore does not pay for.
@@ -214,15 +248,17 @@ impl Plan {
             }
         };
         let nothing = self.broad_phase == BroadPhasePlan::Nothing;
+        let document = !nothing && self.exchange != ExchangePlan::Impulse;
         [
             (!gravity, "gravity"),
             (!linear && !angular, "drag"),
             (census.prescribed == 0, "prescribed motion"),
             (census.compound == 0, "compound bodies"),
             (nothing, "detection, relocation and exchange"),
-            (!nothing && census.mobile < 2, "exchange §2.5.1"),
-            (!nothing && census.fixed_with_physics == 0, "exchange §2.5.2"),
-            (!nothing && census.fixed == 0, "exchange §2.5.3"),
+            (!nothing && !document, "relocation"),
+            (document && census.mobile < 2, "exchange §2.5.1"),
+            (document && census.fixed_with_physics == 0, "exchange §2.5.2"),
+            (document && census.fixed == 0, "exchange §2.5.3"),
         ]
         .into_iter()
         .filter_map(|(absent, what)| absent.then_some(what))

@@ -4,20 +4,21 @@
 //! |---|---|---|
 //! | advance | [`advance`](crate::advance::advance) | §2.1 |
 //! | broad phase | [`BroadPhase::visit`](crate::broad_phase::BroadPhase::visit) | §2.3 |
-//! | detect | [`detect::vertices::find`](crate::detect::vertices::find) | §2.3 |
+//! | detect | [`detect::collides`](crate::detect::collides) | §2.3 |
 //! | relocate | [`relocate::separate`](crate::relocate::separate) | §2.4 |
-//! | exchange | [`exchange::document::exchange`](crate::exchange::document::exchange) | §2.5 |
+//! | exchange | [`document::exchange`](crate::exchange::document::exchange), or [`impulse::act`](crate::exchange::impulse::act) | §2.5 |
 
 use crate::advance::{advance, is_finite};
 use crate::area::Vec2;
 use crate::bodies::Motion;
 use crate::check::shown;
 use crate::command::apply_pushes;
-use crate::detect::vertices;
+use crate::detect;
 use crate::error::Fault;
-use crate::exchange::{PairKind, document};
+use crate::exchange::document::Losses;
+use crate::exchange::{PairKind, document, impulse};
 use crate::forces::Flight;
-use crate::plan::FlightPlan;
+use crate::plan::{ExchangePlan, FlightPlan};
 use crate::relocate;
 use crate::world::{BodyId, World};
 
@@ -38,6 +39,14 @@ pub struct Hit {
     pub depth: f64,
     /// Which case of the exchange it was.
     pub kind: PairKind,
+}
+
+/// An exchange, before it is told.
+struct Exchanged {
+    point: Vec2,
+    normal: Vec2,
+    depth: f64,
+    kind: PairKind,
 }
 
 impl World {
@@ -102,9 +111,9 @@ impl World {
         if self.fault.is_some() {
             return;
         }
-        let World { broad_phase, bodies, listed, work, .. } = self;
+        let World { plan, broad_phase, bodies, listed, work, .. } = self;
         broad_phase.visit(bodies, work, |i, j, work| {
-            if vertices::find(bodies, i, j, work).is_some() {
+            if detect::collides(plan.detection, bodies, i, j, work) {
                 listed.push((i as u32, j as u32));
             }
         });
@@ -113,29 +122,40 @@ impl World {
         work.pairs_listed += listed.len() as u64;
     }
 
-    /// Detects a listed pair again, with the frames as they are by now; relocates it and exchanges.
+    /// Detects a listed pair again, with the frames as they are by now, and treats it.
     fn treat(&mut self, a: BodyId, b: BodyId) -> Option<Hit> {
-        let World { plan, bodies, work, .. } = self;
-        let contact = vertices::find(bodies, a.index(), b.index(), work)?;
-        let placed = relocate::separate(bodies, &contact, plan.epsilon);
-        work.relocations += 1;
-        let kind = document::exchange(bodies, &placed, plan.losses)?;
-        work.count_exchange(kind);
+        let exchanged = match self.plan.exchange {
+            ExchangePlan::Document { epsilon, losses } => self.relocate_and_exchange(a, b, epsilon, losses),
+            ExchangePlan::Impulse => self.exchange_impulses(a, b),
+        }?;
+        self.work.count_exchange(exchanged.kind);
         self.collisions += 1;
         for body in [a.index(), b.index()] {
             if !self.moves_finitely(body) {
                 self.report_fault(body);
             }
         }
-        Some(Hit {
-            iteration: self.iteration,
-            a,
-            b,
-            point: placed.point + self.plan.origin,
-            normal: placed.normal,
-            depth: contact.depth,
-            kind,
-        })
+        let Exchanged { point, normal, depth, kind } = exchanged;
+        Some(Hit { iteration: self.iteration, a, b, point: point + self.plan.origin, normal, depth, kind })
+    }
+
+    /// The document's way (§2.4, §2.5).
+    fn relocate_and_exchange(&mut self, a: BodyId, b: BodyId, epsilon: f64, losses: Losses) -> Option<Exchanged> {
+        let World { plan, bodies, work, .. } = self;
+        let contact = detect::contact(plan.detection, bodies, a.index(), b.index(), work)?;
+        let placed = relocate::separate(bodies, &contact, epsilon);
+        work.relocations += 1;
+        let kind = document::exchange(bodies, &placed, losses)?;
+        Some(Exchanged { point: placed.point, normal: placed.normal, depth: contact.depth, kind })
+    }
+
+    /// Newton and Euler's way: impulses at the points that approach; nothing is moved.
+    fn exchange_impulses(&mut self, a: BodyId, b: BodyId) -> Option<Exchanged> {
+        let World { plan, bodies, work, .. } = self;
+        let manifold = detect::manifold(plan.detection, bodies, a.index(), b.index(), work)?;
+        let (normal, point) = impulse::act(bodies, &manifold)?;
+        let kind = PairKind::of(bodies.role[a.index()], bodies.role[b.index()]);
+        Some(Exchanged { point, normal, depth: manifold.depth, kind })
     }
 
     fn moves_finitely(&self, body: usize) -> bool {

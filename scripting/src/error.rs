@@ -154,6 +154,14 @@ impl Complaint {
         Complaint { message: message.into(), hint: None, elsewhere: None }
     }
 
+    /// The same complaint, said of a body; one that names it already stays as it is.
+    pub(crate) fn about_body(mut self, name: &str) -> Self {
+        if !self.message.contains(&format!("\"{name}\"")) {
+            self.message = format!("body \"{name}\": {}", self.message);
+        }
+        self
+    }
+
     pub(crate) fn hint(mut self, hint: impl Into<String>) -> Self {
         self.hint = Some(hint.into());
         self

@@ -49,6 +49,15 @@ pub struct Point {
     pub feature: u8,
 }
 
+impl From<Contact> for Manifold {
+    /// A vertex alone.
+    fn from(contact: Contact) -> Self {
+        let Contact { owner, reference, vertex, on_face, face, depth } = contact;
+        let point = Point { vertex, on_face, depth, feature: 0 };
+        Manifold { owner, reference, face, depth, points: [point, Point::default()], count: 1 }
+    }
+}
+
 impl Manifold {
     /// Its one or two points.
     #[must_use]

@@ -5,6 +5,10 @@ pub mod overlap;
 pub mod vertices;
 
 use crate::area::{Rect, Vec2};
+use crate::bodies::Bodies;
+use crate::scene::Detection;
+use crate::work::Work;
+use complete::Manifold;
 
 /// A face of a rectangle, in the order in which reading R5 breaks ties.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -58,4 +62,32 @@ pub struct Contact {
     pub face: Face,
     /// How far inside that face it lies \[m\], ≥ 0.
     pub depth: f64,
+}
+
+/// Whether the pair i < j collides, by the scene's detection.
+#[inline]
+#[must_use]
+pub fn collides(detection: Detection, bodies: &Bodies, i: usize, j: usize, work: &mut Work) -> bool {
+    match detection {
+        Detection::Vertices => vertices::find(bodies, i, j, work).is_some(),
+        Detection::Complete => complete::find(bodies, i, j, work).is_some(),
+    }
+}
+
+/// The one contact that the document treats: the first vertex, or the mean of the manifold's points (R10).
+#[must_use]
+pub fn contact(detection: Detection, bodies: &Bodies, i: usize, j: usize, work: &mut Work) -> Option<Contact> {
+    match detection {
+        Detection::Vertices => vertices::find(bodies, i, j, work),
+        Detection::Complete => complete::find(bodies, i, j, work).map(|manifold| manifold.mean()),
+    }
+}
+
+/// The points of contact that impulses act at: the first vertex alone, or the whole manifold.
+#[must_use]
+pub fn manifold(detection: Detection, bodies: &Bodies, i: usize, j: usize, work: &mut Work) -> Option<Manifold> {
+    match detection {
+        Detection::Vertices => vertices::find(bodies, i, j, work).map(Manifold::from),
+        Detection::Complete => complete::find(bodies, i, j, work),
+    }
 }

@@ -9,6 +9,15 @@ pub struct Surface {
     pub friction: f64,
 }
 
+impl Surface {
+    /// What two bodies make of each other: the livelier restitution, and the geometric mean of their frictions, so that
+    /// ice is slippery to everyone.
+    #[must_use]
+    pub fn of_pair(one: Surface, two: Surface) -> Surface {
+        Surface { restitution: one.restitution.max(two.restitution), friction: (one.friction * two.friction).sqrt() }
+    }
+}
+
 /// An impulse, or a velocity, along the tangent and the normal.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Components {

@@ -19,6 +19,7 @@ use super::flat::Flat;
 use super::impact::{Impact, Surface};
 use crate::area::Vec2;
 use crate::bodies::{Bodies, Role};
+use crate::detect::complete::{Manifold, Point};
 use crate::frame::perp;
 
 /// A point of contact in world directions: the arms from both centres.
@@ -73,6 +74,30 @@ fn apply(bodies: &mut Bodies, i: usize, j: usize, inverse: &Inverse, at: &Arms, 
     bodies.motion[i].omega -= cross(at.r_i, p) * inverse.moment_i;
     bodies.motion[j].v += p * inverse.mass_j;
     bodies.motion[j].omega += cross(at.r_j, p) * inverse.moment_j;
+}
+
+/// Exchanges motion at the points of a manifold; gives the normal (out of the reference) and the middle of the points,
+/// or `None` when nothing approaches.
+///
+/// The point of contact lies halfway between the owner's point and the face it is in, the same for both bodies, so that
+/// momentum and angular momentum are kept whatever the depth.
+pub fn act(bodies: &mut Bodies, manifold: &Manifold) -> Option<(Vec2, Vec2)> {
+    let (reference, owner) = (manifold.reference, manifold.owner);
+    let (frame, owner_frame) = (bodies.frame[reference], bodies.frame[owner]);
+    let n = frame.outward(manifold.face.normal());
+    let arms = |point: &Point| Arms {
+        r_i: frame.outward(point.on_face) - n * (0.5 * point.depth),
+        r_j: owner_frame.outward(point.vertex) + n * (0.5 * point.depth),
+    };
+    let mut both = [Arms { r_i: Vec2::zeros(), r_j: Vec2::zeros() }; 2];
+    let points = manifold.points();
+    for (slot, point) in both.iter_mut().zip(points) {
+        *slot = arms(point);
+    }
+    let surface = Surface::of_pair(bodies.surface[reference], bodies.surface[owner]);
+    let points = &both[..points.len()];
+    let middle = frame.o + points.iter().map(|at| at.r_i).sum::<Vec2>() / points.len() as f64;
+    exchange(bodies, (reference, owner), n, points, surface).then_some((n, middle))
 }
 
 /// Exchanges motion at one or two points, `n` pointing from i to j. `false` when the bodies are parting at every

@@ -1,8 +1,10 @@
 //! The document's model, held to worked values, to its formulas, and to itself.
 
+mod collisions;
 mod impacts;
 mod laws;
 mod needs;
+mod overlaps;
 mod random_scenes;
 mod refusals;
 mod worked;

@@ -1,6 +1,6 @@
 //! What is refused at the door, by name and value; and what stops a run.
 
-use choque_engine::scene::{Body, Detection, ExchangeRule, Kind, MotionRule, Part, Patrol, Scene, Settings, Swing};
+use choque_engine::scene::{Body, Kind, MotionRule, Part, Patrol, Scene, Settings, Swing};
 use choque_engine::{CommandError, Extent, Rect, Vec2, World, note};
 
 use crate::{after, body, scene};
@@ -35,10 +35,8 @@ fn settings_out_of_range_are_named_with_their_value() {
 
 #[test]
 fn models_this_version_lacks_are_refused_and_not_replaced() {
-    let message = refused_setting(|s| s.exchange = ExchangeRule::Impulse);
-    assert_eq!(message, "exchange(\"impulse\") is not part of this version; exchange(\"document\") is");
-    assert!(refused_setting(|s| s.motion = MotionRule::Continuous).contains("motion(\"continuous\")"));
-    assert!(refused_setting(|s| s.detection = Some(Detection::Complete)).contains("detection(\"complete\")"));
+    let message = refused_setting(|s| s.motion = MotionRule::Continuous);
+    assert_eq!(message, "motion(\"continuous\") is not part of this version; motion(\"stepped\") is");
 }
 
 #[test]

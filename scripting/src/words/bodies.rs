@@ -5,6 +5,7 @@ use choque_engine::scene::{self, Kind, Part, Patrol, Swing};
 use rhai::plugin::*;
 
 use super::{List, Number, Text};
+use crate::draft::Draft;
 use crate::error::Complaint;
 use crate::handles::Body;
 use crate::number;
@@ -42,11 +43,10 @@ pub(crate) mod module {
     /// of several rectangles.
     #[rhai_fn(return_raw)]
     pub fn rect(context: NativeCallContext, body: Body, width: Number, depth: Number) -> RhaiResultOf<Body> {
-        session::build(&context, |draft| {
+        on_body(&context, body, |draft| {
             let width = number::positive("rect: width", &width)?;
             let depth = number::positive("rect: depth", &depth)?;
-            draft.add_part(body.index, Part::Rect(Rect::centred(width, depth)))?;
-            Ok(body)
+            draft.add_part(body.index, Part::Rect(Rect::centred(width, depth)))
         })
     }
 
@@ -60,11 +60,10 @@ pub(crate) mod module {
         z_min: Number,
         z_max: Number,
     ) -> RhaiResultOf<Body> {
-        session::build(&context, |draft| {
+        on_body(&context, body, |draft| {
             let (x_min, x_max) = span("x", &x_min, &x_max)?;
             let (z_min, z_max) = span("z", &z_min, &z_max)?;
-            draft.add_part(body.index, Part::Rect(Rect { x_min, x_max, z_min, z_max }))?;
-            Ok(body)
+            draft.add_part(body.index, Part::Rect(Rect { x_min, x_max, z_min, z_max }))
         })
     }
 
@@ -73,22 +72,19 @@ pub(crate) mod module {
     /// body of several rectangles.
     #[rhai_fn(return_raw)]
     pub fn mesh(context: NativeCallContext, body: Body, vertices: List) -> RhaiResultOf<Body> {
-        session::build(&context, |draft| {
+        on_body(&context, body, |draft| {
             let vertices = number::tuples::<3>("mesh", "[x, y, z]", &vertices)?;
-            draft.add_part(body.index, Part::Mesh(extent("mesh", vertices)?))?;
-            Ok(body)
+            draft.add_part(body.index, Part::Mesh(extent("mesh", vertices)?))
         })
     }
 
     /// Gives the body a 3D mesh from a Wavefront `.obj` file below the script's folder or below the library.
     #[rhai_fn(return_raw)]
     pub fn model(context: NativeCallContext, body: Body, file: Text) -> RhaiResultOf<Body> {
-        session::with(&context, |session| {
-            let library = session.library.clone();
-            let draft = session.draft("model")?;
+        let library = session::with(&context, |session| Ok(session.library.clone()))?;
+        on_body(&context, body, |draft| {
             let found = library.find("model", &number::text("model: file", &file)?, "")?;
-            draft.add_part(body.index, Part::Mesh(extent("model", obj::read_vertices(&found)?)?))?;
-            Ok(body)
+            draft.add_part(body.index, Part::Mesh(extent("model", obj::read_vertices(&found)?)?))
         })
     }
 
@@ -228,10 +224,7 @@ pub(crate) mod module {
     /// Gives the body a free label; it may have several. `world.tagged(text)` lists all bodies of a label.
     #[rhai_fn(return_raw)]
     pub fn tag(context: NativeCallContext, body: Body, text: Text) -> RhaiResultOf<Body> {
-        session::build(&context, |draft| {
-            draft.add_tag(body.index, &number::label("tag", &text, LONGEST_NAME)?)?;
-            Ok(body)
-        })
+        on_body(&context, body, |draft| draft.add_tag(body.index, &number::label("tag", &text, LONGEST_NAME)?))
     }
 }
 
@@ -242,12 +235,24 @@ fn add(context: &NativeCallContext, name: &rhai::Dynamic, kind: Kind) -> RhaiRes
     })
 }
 
+/// Has a word work on a body of the scene being built; what it complains of is said of that body.
+fn on_body(
+    context: &NativeCallContext,
+    body: Body,
+    work: impl FnOnce(&mut Draft) -> Result<(), Complaint>,
+) -> RhaiResultOf<Body> {
+    session::build(context, |draft| match work(draft) {
+        Ok(()) => Ok(body),
+        Err(complaint) => Err(complaint.about_body(&draft.body(body.index)?.name)),
+    })
+}
+
 fn change(
     context: &NativeCallContext,
     body: Body,
     change: impl FnOnce(&mut scene::Body) -> Result<(), Complaint>,
 ) -> RhaiResultOf<Body> {
-    session::build(context, |draft| change(draft.body(body.index)?).map(|()| body))
+    on_body(context, body, |draft| change(draft.body(body.index)?))
 }
 
 fn set<T>(

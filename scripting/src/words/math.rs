@@ -12,6 +12,12 @@ use crate::session::{RhaiResultOf, complain};
 
 #[export_module]
 pub(crate) mod module {
+    /// The constant `PI`, written as other scripts of the language write it.
+    #[rhai_fn(name = "PI")]
+    pub fn pi() -> f64 {
+        PI
+    }
+
     /// Degrees in radians: `deg(90)` is a right angle.
     #[rhai_fn(return_raw)]
     pub fn deg(context: NativeCallContext, x: Number) -> RhaiResultOf<f64> {

@@ -131,7 +131,7 @@ fn a_model_that_is_none_is_told_with_its_line() {
     let files = |text| [("scene.rhai", "let car = mobile(\"car\");\ncar.model(\"car.obj\");"), ("car.obj", text)];
     let error = |text| error_in(&files(text), &Options::default());
     assert_snapshot!(error("v 0 0 0\nv 1 one 1\n"), @r#"
-    error: `one` is not a finite number
+    error: body "car": `one` is not a finite number
      --> car.obj:2:5
       |
     2 | v 1 one 1
@@ -140,7 +140,7 @@ fn a_model_that_is_none_is_told_with_its_line() {
       = note: read at scene.rhai:2:5
     "#);
     assert_snapshot!(error("v 0 0 0\nw 1 1 1\n"), @r#"
-    error: `w` is not a statement of a .obj file
+    error: body "car": `w` is not a statement of a .obj file
      --> car.obj:2:1
       |
     2 | w 1 1 1
@@ -149,14 +149,14 @@ fn a_model_that_is_none_is_told_with_its_line() {
       = note: read at scene.rhai:2:5
     "#);
     assert_snapshot!(error("# nothing\n"), @r#"
-    error: model has no vertices
+    error: body "car": model has no vertices
      --> scene.rhai:2:5
       |
     2 | car.model("car.obj");
       |     ^^^^^
     "#);
     assert_snapshot!(error("v 0 0 0\nv 0 1 1\n"), @r#"
-    error: model is flat: all its vertices have x = 0
+    error: body "car": model is flat: all its vertices have x = 0
      --> scene.rhai:2:5
       |
     2 | car.model("car.obj");
@@ -165,7 +165,7 @@ fn a_model_that_is_none_is_told_with_its_line() {
       = help: an area needs a width along X and a depth along Z
     "#);
     assert_snapshot!(error_in(&[("scene.rhai", "mobile(\"a\").model(\"crate.obj\");"), ("crates.obj", "")], &Options::default()), @r#"
-    error: model: there is no file "crate.obj"
+    error: body "a": model: there is no file "crate.obj"
      --> scene.rhai:1:13
       |
     1 | mobile("a").model("crate.obj");

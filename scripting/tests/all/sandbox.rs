@@ -31,13 +31,13 @@ fn a_path_that_leads_upwards_is_refused() {
       = help: write a path below the script's folder or below the library, with `/` between folders
     "#);
     assert_snapshot!(what(r#"import "lib/../../secret" as s;"#), @r#"error: import: "lib/../../secret" leads upwards"#);
-    assert_snapshot!(what(r#"mobile("a").model("../secret.obj");"#), @r#"error: model: "../secret.obj" leads upwards"#);
+    assert_snapshot!(what(r#"mobile("a").model("../secret.obj");"#), @r#"error: body "a": model: "../secret.obj" leads upwards"#);
 }
 
 #[test]
 fn an_absolute_path_is_refused() {
     assert_snapshot!(what(r#"import "/etc/passwd" as s;"#), @r#"error: import: "/etc/passwd" is an absolute path"#);
-    assert_snapshot!(what(r#"mobile("a").model("/etc/passwd");"#), @r#"error: model: "/etc/passwd" is an absolute path"#);
+    assert_snapshot!(what(r#"mobile("a").model("/etc/passwd");"#), @r#"error: body "a": model: "/etc/passwd" is an absolute path"#);
 }
 
 #[test]

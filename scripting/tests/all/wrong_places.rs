@@ -10,7 +10,7 @@ fn an_error_in_a_function_tells_how_one_gets_there() {
     assert_snapshot!(
         error("fn car(i) { mobile(\"c\" + i).rect(1, -1) }\nfn row(n) {\n    for i in 0..n { car(i); }\n}\nrow(3);"),
         @r#"
-    error: rect: depth must be greater than 0, not -1
+    error: body "c0": rect: depth must be greater than 0, not -1
      --> scene.rhai:1:29
       |
     1 | fn car(i) { mobile("c" + i).rect(1, -1) }
@@ -53,7 +53,7 @@ fn an_error_in_a_module_is_shown_there() {
     };
     let error = |script| error_in(&files(script), &Options::default());
     assert_snapshot!(error("import \"lib/cars\" as cars;\ncars::bad(\"a\");"), @r#"
-    error: rect: width must be a number, not a string
+    error: body "a": rect: width must be a number, not a string
      --> lib/cars.rhai:2:18
       |
     2 |     mobile(name).rect("x", 2)

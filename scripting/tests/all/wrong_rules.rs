@@ -162,14 +162,14 @@ fn bodies_that_contradict_themselves_are_refused() {
       = help: leave out .spin or .swing
     "#);
     assert_snapshot!(error("fixed(\"a\").patrol([[1, 1, 1]], 1);"), @r#"
-    error: patrol, entry 0 must be [x, z], not 3 numbers
+    error: body "a": patrol, entry 0 must be [x, z], not 3 numbers
      --> scene.rhai:1:12
       |
     1 | fixed("a").patrol([[1, 1, 1]], 1);
       |            ^^^^^^
     "#);
     assert_snapshot!(error("fixed(\"a\").patrol([], 1);"), @r#"
-    error: patrol needs a point to travel to
+    error: body "a": patrol needs a point to travel to
      --> scene.rhai:1:12
       |
     1 | fixed("a").patrol([], 1);
@@ -178,7 +178,7 @@ fn bodies_that_contradict_themselves_are_refused() {
       = help: write .patrol([[x, z]], speed)
     "#);
     assert_snapshot!(error("mobile(\"a\").mesh([[0, 0, 0], [1, \"y\", 1]]);"), @r#"
-    error: mesh, entry 1, number 1 must be a number, not a string
+    error: body "a": mesh, entry 1, number 1 must be a number, not a string
      --> scene.rhai:1:13
       |
     1 | mobile("a").mesh([[0, 0, 0], [1, "y", 1]]);

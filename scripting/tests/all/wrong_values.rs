@@ -8,7 +8,7 @@ use crate::support::{Folder, error};
 #[test]
 fn a_wrong_type_names_the_argument() {
     assert_snapshot!(error("mobile(\"a\")\n    .rect(\"wide\", 2);"), @r#"
-    error: rect: width must be a number, not a string
+    error: body "a": rect: width must be a number, not a string
      --> scene.rhai:2:6
       |
     2 |     .rect("wide", 2);
@@ -29,7 +29,7 @@ fn a_wrong_type_names_the_argument() {
       | ^^^^^
     "#);
     assert_snapshot!(error("let car = mobile(\"car\");\ncar.at(car, 0);"), @r#"
-    error: at: x must be a number, not a body
+    error: body "car": at: x must be a number, not a body
      --> scene.rhai:2:5
       |
     2 | car.at(car, 0);
@@ -54,14 +54,14 @@ fn a_wrong_type_names_the_argument() {
 #[test]
 fn a_number_out_of_range_names_the_argument_and_the_value() {
     assert_snapshot!(error("mobile(\"a\").mass(0);"), @r#"
-    error: mass must be greater than 0, not 0
+    error: body "a": mass must be greater than 0, not 0
      --> scene.rhai:1:13
       |
     1 | mobile("a").mass(0);
       |             ^^^^
     "#);
     assert_snapshot!(error("mobile(\"a\").velocity(0.0 / 0.0, 0);"), @r#"
-    error: velocity: x must be a finite number, not NaN
+    error: body "a": velocity: x must be a finite number, not NaN
      --> scene.rhai:1:13
       |
     1 | mobile("a").velocity(0.0 / 0.0, 0);
@@ -75,7 +75,7 @@ fn a_number_out_of_range_names_the_argument_and_the_value() {
       | ^^^^^^^
     "#);
     assert_snapshot!(error("mobile(\"a\").rect(3, 1, 0, 1);"), @r#"
-    error: rect: x_min must be less than x_max, but 3 is not less than 1
+    error: body "a": rect: x_min must be less than x_max, but 3 is not less than 1
      --> scene.rhai:1:13
       |
     1 | mobile("a").rect(3, 1, 0, 1);
@@ -91,7 +91,7 @@ fn a_number_out_of_range_names_the_argument_and_the_value() {
       | ^^^^^^^^^^^
     "#);
     assert_snapshot!(error("mobile(\"a\").scale(1, 0, 1);"), @r#"
-    error: scale: sy must be greater than 0, not 0
+    error: body "a": scale: sy must be greater than 0, not 0
      --> scene.rhai:1:13
       |
     1 | mobile("a").scale(1, 0, 1);
@@ -228,7 +228,7 @@ fn values_that_do_not_fit_are_named_in_words() {
       | ^^^^^
     "#);
     assert_snapshot!(error("try { mobile(\"a\").mass(-1) } catch (error) { throw error; }"), @r#"
-    error: mass must be greater than 0, not -1
+    error: body "a": mass must be greater than 0, not -1
      --> scene.rhai:1:46
       |
     1 | try { mobile("a").mass(-1) } catch (error) { throw error; }
