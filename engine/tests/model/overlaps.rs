@@ -9,8 +9,11 @@ use choque_engine::{Rect, Vec2, Work};
 
 use crate::random_scenes::Random;
 
-/// Two bodies of one centred rectangle each: (width, depth), (x, z), angle.
-fn bodies(of: [((f64, f64), (f64, f64), f64); 2]) -> Bodies {
+/// A centred rectangle: (width, depth), (x, z), angle.
+type Rectangle = ((f64, f64), (f64, f64), f64);
+
+/// Two bodies of one rectangle each.
+fn bodies(of: [Rectangle; 2]) -> Bodies {
     let mut bodies = Bodies { first_rect: vec![0, 1, 2], ..Bodies::default() };
     for ((width, depth), (x, z), angle) in of {
         bodies.frame.push(Frame::new(Vec2::new(x, z), angle));
