@@ -48,6 +48,7 @@ pub mod error;
 pub mod exchange;
 pub mod forces;
 pub mod frame;
+pub mod impact_time;
 pub mod load;
 pub mod note;
 pub mod plan;

@@ -2,11 +2,11 @@
 //!
 //! | stage | function | document |
 //! |---|---|---|
-//! | advance | [`advance`](crate::advance::advance) | §2.1 |
+//! | advance | [`advance`] | §2.1 |
 //! | broad phase | [`BroadPhase::visit`](crate::broad_phase::BroadPhase::visit) | §2.3 |
-//! | detect | [`detect::collides`](crate::detect::collides) | §2.3 |
-//! | relocate | [`relocate::separate`](crate::relocate::separate) | §2.4 |
-//! | exchange | [`document::exchange`](crate::exchange::document::exchange), or [`impulse::act`](crate::exchange::impulse::act) | §2.5 |
+//! | detect | [`detect::collides`] | §2.3 |
+//! | relocate | [`relocate::separate`] | §2.4 |
+//! | exchange | [`document::exchange`], or [`impulse::act`] | §2.5 |
 
 use crate::advance::{advance, is_finite};
 use crate::area::Vec2;

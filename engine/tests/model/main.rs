@@ -7,6 +7,7 @@ mod needs;
 mod overlaps;
 mod random_scenes;
 mod refusals;
+mod touches;
 mod worked;
 
 use choque_engine::scene::{Body, Kind, Part, Scene};

@@ -65,6 +65,8 @@ fn groups() -> [(&'static str, Module); 7] {
 /// Teaches an engine the words.
 pub(crate) fn register(engine: &mut Engine) {
     register_types(engine);
+    engine.register_fn("to_string", |complaint: &mut Complaint| complaint.message.clone());
+    engine.register_fn("to_debug", |complaint: &mut Complaint| complaint.message.clone());
     for (_, module) in groups() {
         engine.register_global_module(module.into());
     }
@@ -78,6 +80,4 @@ fn register_types(engine: &mut Engine) {
     engine.register_type_with_name::<Hit>("Hit");
     // What `catch (error)` gets of a word's complaint.
     engine.register_type_with_name::<Complaint>("Error");
-    engine.register_fn("to_string", |complaint: &mut Complaint| complaint.message.clone());
-    engine.register_fn("to_debug", |complaint: &mut Complaint| complaint.message.clone());
 }
