@@ -134,23 +134,9 @@ impl Separation {
         let seen = other.frame.seen_from(&reference.frame);
         let rect = &reference.rect;
         let vertices = other.rect.vertices().map(|vertex| seen.place(vertex));
-        let least = |distance: fn(&Rect, Vec2) -> f64| {
-            vertices.iter().map(|p| distance(rect, *p)).fold(f64::INFINITY, f64::min)
-        };
-        let faces: [(Face, fn(&Rect, Vec2) -> f64); 4] = [
-            (Face::XMax, |rect, p| p.x - rect.x_max),
-            (Face::XMin, |rect, p| rect.x_min - p.x),
-            (Face::ZMax, |rect, p| p.y - rect.z_max),
-            (Face::ZMin, |rect, p| rect.z_min - p.y),
-        ];
-        let mut best = (faces[0].0, faces[0].1, f64::NEG_INFINITY);
-        for (face, distance) in faces {
-            let gap = least(distance);
-            if gap > best.2 {
-                best = (face, distance, gap);
-            }
-        }
-        let (face, distance, gap) = best;
+        let gap = |face: Face| vertices.iter().map(|p| face.distance(rect, *p)).fold(f64::INFINITY, f64::min);
+        let gaps = Face::ALL.map(|face| (face, gap(face)));
+        let (face, gap) = gaps[1..].iter().fold(gaps[0], |best, next| if next.1 > best.1 { *next } else { best });
         let n = face.normal();
         let (w_r, w_o) = (reference.motion.omega, other.motion.omega);
         let u = reference.frame.inward(other.motion.v - reference.motion.v);
@@ -159,7 +145,7 @@ impl Separation {
             (u + perp(arm) * w_o - perp(p) * w_r).dot(&n)
         };
         let own = other.rect.vertices();
-        let states = [0, 1, 2, 3].map(|k| (distance(rect, vertices[k]), rate(own[k], vertices[k])));
+        let states = [0, 1, 2, 3].map(|k| (face.distance(rect, vertices[k]), rate(own[k], vertices[k])));
         Separation { face, gap, vertices: states, bend: bend(reference, other) }
     }
 

@@ -24,6 +24,21 @@ pub enum Face {
 }
 
 impl Face {
+    /// All four, in the order of reading R5.
+    pub const ALL: [Face; 4] = [Face::XMax, Face::XMin, Face::ZMax, Face::ZMin];
+
+    /// How far outside the face a point lies \[m\]; negative inside.
+    #[inline]
+    #[must_use]
+    pub fn distance(self, rect: &Rect, point: Vec2) -> f64 {
+        match self {
+            Face::XMax => point.x - rect.x_max,
+            Face::XMin => rect.x_min - point.x,
+            Face::ZMax => point.y - rect.z_max,
+            Face::ZMin => rect.z_min - point.y,
+        }
+    }
+
     /// The outward normal, in the rectangle's own frame.
     #[must_use]
     pub fn normal(self) -> Vec2 {

@@ -53,13 +53,7 @@ fn first_inside(rect: &Rect, points: &[Vec2; 4]) -> Option<usize> {
 /// The face the point is nearest to and how far inside it lies (§2.4; reading R5: the first of equals).
 #[must_use]
 pub fn nearest_face(rect: &Rect, p: Vec2) -> (Face, f64) {
-    let distances = [
-        (Face::XMax, rect.x_max - p.x),
-        (Face::XMin, p.x - rect.x_min),
-        (Face::ZMax, rect.z_max - p.y),
-        (Face::ZMin, p.y - rect.z_min),
-    ];
-    let [first, rest @ ..] = distances;
+    let [first, rest @ ..] = Face::ALL.map(|face| (face, -face.distance(rect, p)));
     rest.into_iter().fold(first, |least, next| if next.1 < least.1 { next } else { least })
 }
 
