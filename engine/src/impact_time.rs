@@ -134,7 +134,7 @@ impl Separation {
         let seen = other.frame.seen_from(&reference.frame);
         let rect = &reference.rect;
         let vertices = other.rect.vertices().map(|vertex| seen.place(vertex));
-        let gap = |face: Face| vertices.iter().map(|p| face.distance(rect, *p)).fold(f64::INFINITY, f64::min);
+        let gap = |face: Face| vertices.iter().map(|p| -face.depth_of(rect, *p)).fold(f64::INFINITY, f64::min);
         let gaps = Face::ALL.map(|face| (face, gap(face)));
         let (face, gap) = gaps[1..].iter().fold(gaps[0], |best, next| if next.1 > best.1 { *next } else { best });
         let n = face.normal();
@@ -145,7 +145,7 @@ impl Separation {
             (u + perp(arm) * w_o - perp(p) * w_r).dot(&n)
         };
         let own = other.rect.vertices();
-        let states = [0, 1, 2, 3].map(|k| (face.distance(rect, vertices[k]), rate(own[k], vertices[k])));
+        let states = [0, 1, 2, 3].map(|k| (-face.depth_of(rect, vertices[k]), rate(own[k], vertices[k])));
         Separation { face, gap, vertices: states, bend: bend(reference, other) }
     }
 

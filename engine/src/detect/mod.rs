@@ -27,15 +27,15 @@ impl Face {
     /// All four, in the order of reading R5.
     pub const ALL: [Face; 4] = [Face::XMax, Face::XMin, Face::ZMax, Face::ZMin];
 
-    /// How far outside the face a point lies \[m\]; negative inside.
+    /// How far inside the face a point lies \[m\]; negative outside (§2.4).
     #[inline]
     #[must_use]
-    pub fn distance(self, rect: &Rect, point: Vec2) -> f64 {
+    pub fn depth_of(self, rect: &Rect, point: Vec2) -> f64 {
         match self {
-            Face::XMax => point.x - rect.x_max,
-            Face::XMin => rect.x_min - point.x,
-            Face::ZMax => point.y - rect.z_max,
-            Face::ZMin => rect.z_min - point.y,
+            Face::XMax => rect.x_max - point.x,
+            Face::XMin => point.x - rect.x_min,
+            Face::ZMax => rect.z_max - point.y,
+            Face::ZMin => point.y - rect.z_min,
         }
     }
 

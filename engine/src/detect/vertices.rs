@@ -53,7 +53,7 @@ fn first_inside(rect: &Rect, points: &[Vec2; 4]) -> Option<usize> {
 /// The face the point is nearest to and how far inside it lies (§2.4; reading R5: the first of equals).
 #[must_use]
 pub fn nearest_face(rect: &Rect, p: Vec2) -> (Face, f64) {
-    let [first, rest @ ..] = Face::ALL.map(|face| (face, -face.distance(rect, p)));
+    let [first, rest @ ..] = Face::ALL.map(|face| (face, face.depth_of(rect, p)));
     rest.into_iter().fold(first, |least, next| if next.1 < least.1 { next } else { least })
 }
 
