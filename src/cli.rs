@@ -3,10 +3,11 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use clap::{CommandFactory, Parser, Subcommand, ValueEnum};
+use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
 
 use crate::arguments::ScenarioArguments;
+use crate::run::RunArguments;
 use crate::{Error, Verdict, check, explain, export, init, run, terminal, words};
 
 const EXAMPLES: &str = "\
@@ -92,33 +93,6 @@ Examples:
         /// Which shell
         shell: Shell,
     },
-}
-
-/// What `run` is given.
-#[derive(Clone, Debug, clap::Args)]
-pub struct RunArguments {
-    /// A `.rhai` script or a `.ron` scene
-    pub file: PathBuf,
-    /// How the result is printed: json and ron go to standard output, text to standard error
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    pub format: Format,
-    /// Print the whole plan and the counted work too
-    #[arg(short, long)]
-    pub verbose: bool,
-    /// Overrides and folders.
-    #[command(flatten)]
-    pub scenario: ScenarioArguments,
-}
-
-/// How a result is printed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Format {
-    /// For people
-    Text,
-    /// One JSON object
-    Json,
-    /// The same data as RON
-    Ron,
 }
 
 /// The whole command: reads the arguments of the process, does what they ask, says what went wrong.

@@ -1,14 +1,43 @@
 //! `choque run`: plays a scenario and tells what came of it.
 
+use std::path::PathBuf;
+
 use choque_engine::{Hit, World, note};
 use choque_scripting::Scenario;
 
-use crate::cli::{Format, RunArguments};
+use crate::arguments::ScenarioArguments;
 use crate::output::{json, ron, text};
 use crate::play::{FirstMeetings, Watch, play};
 use crate::progress::Progress;
 use crate::report::Report;
 use crate::{Error, Verdict, terminal};
+
+/// What `run` is given.
+#[derive(Clone, Debug, clap::Args)]
+pub struct RunArguments {
+    /// A `.rhai` script or a `.ron` scene
+    pub file: PathBuf,
+    /// How the result is printed: json and ron go to standard output, text to standard error
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    pub format: Format,
+    /// Print the whole plan and the counted work too
+    #[arg(short, long)]
+    pub verbose: bool,
+    /// Overrides and folders.
+    #[command(flatten)]
+    pub scenario: ScenarioArguments,
+}
+
+/// How a result is printed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum Format {
+    /// For people
+    Text,
+    /// One JSON object
+    Json,
+    /// The same data as RON
+    Ron,
+}
 
 /// How many pairs that met the text tells of.
 const MEETINGS: usize = 6;

@@ -1,38 +1,11 @@
 //! Commands (§2.1, step 1): what the user of a world may do to its bodies between iterations.
 
 use crate::area::Vec2;
-use crate::bodies::{Bodies, Motion, Role};
+use crate::bodies::{Motion, Role};
 use crate::check;
 use crate::error::CommandError;
-use crate::forces::Flight;
+use crate::push::Push;
 use crate::world::{BodyId, World};
-
-/// Forces on one body, gathered until the next advance.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Push {
-    /// The body.
-    pub body: u32,
-    /// Sum of forces \[N\].
-    pub force: Vec2,
-    /// Sum of torques \[N·m\].
-    pub torque: f64,
-}
-
-/// What a constant force over the step adds to the free flight: `C·a` of way, `B·a` of velocity.
-/// Free flight is linear, so it adds to gravity and drag without disturbing them.
-pub fn apply_pushes(bodies: &mut Bodies, pushes: &[Push], linear: Flight, angular: Flight) {
-    for push in pushes {
-        let i = push.body as usize;
-        let a = push.force / bodies.inertia[i].mass;
-        let alpha = push.torque / bodies.inertia[i].moment;
-        bodies.shift(i, a * linear.fall);
-        if alpha != 0.0 {
-            bodies.turn(i, alpha * angular.fall);
-        }
-        let Motion { v, omega } = bodies.motion[i];
-        bodies.motion[i] = Motion { v: v + a * linear.reach, omega: omega + alpha * angular.reach };
-    }
-}
 
 /// Commands: what a user of the world may do between iterations, or after an exchange.
 impl World {

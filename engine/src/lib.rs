@@ -3,9 +3,9 @@
 //! | stage | file | document |
 //! |---|---|---|
 //! | what a scene says | [`scene`] | |
-//! | what it needs, decided once | [`plan`], [`load`], [`area`] | §2.1, §2.2 |
+//! | what it needs, decided once | [`plan`], [`census`], [`load`], [`area`] | §2.1, §2.2 |
 //! | one iteration, the story | [`step`] | §2.1 |
-//! | advance | [`advance`], [`forces`], [`prescribed`], [`command`] | §2.1 |
+//! | advance | [`advance`], [`forces`], [`prescribed`], [`push`] | §2.1 |
 //! | broad phase | [`broad_phase`] | §2.3 |
 //! | detect | [`detect`] | §2.3 |
 //! | relocate | [`relocate`] | §2.4 |
@@ -40,6 +40,7 @@ pub mod advance;
 pub mod area;
 pub mod bodies;
 pub mod broad_phase;
+pub mod census;
 pub mod check;
 pub mod command;
 pub mod detect;
@@ -53,6 +54,7 @@ pub mod load;
 pub mod note;
 pub mod plan;
 pub mod prescribed;
+pub mod push;
 pub mod relocate;
 pub mod scene;
 pub mod step;

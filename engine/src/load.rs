@@ -8,7 +8,6 @@ use crate::check::{self, BadNumber};
 use crate::error::SceneError;
 use crate::exchange::impact::Surface;
 use crate::frame::{Angle, Frame};
-use crate::plan::Census;
 use crate::prescribed::{Course, Prescription, Swing};
 use crate::scene::{Body, ExchangeRule, Kind, Part, Scene};
 
@@ -149,32 +148,14 @@ fn all_areas(body: &Body) -> impl Iterator<Item = Rect> {
     })
 }
 
-fn role(body: &Body) -> Role {
+/// What collisions may do to a body; a fixed one has physics when it was given a motion (R9).
+pub fn role(body: &Body) -> Role {
     let prescribed = body.patrol.is_some() || body.swing.is_some();
     match body.kind {
         Kind::Mobile => Role::Mobile,
         Kind::Fixed if body.velocity.is_some() || body.spin.is_some() || prescribed => Role::FixedWithPhysics,
         Kind::Fixed => Role::Fixed,
     }
-}
-
-/// Counts the bodies of each sort.
-#[must_use]
-pub fn census(scene: &Scene) -> Census {
-    let mut census = Census::default();
-    for body in &scene.bodies {
-        let rectangles = areas(body, scene.settings.plane).count();
-        census.rectangles += rectangles;
-        census.compound += usize::from(rectangles > 1);
-        census.prescribed += usize::from(body.patrol.is_some() || body.swing.is_some());
-        match (rectangles, role(body)) {
-            (0, _) => census.not_collidable += 1,
-            (_, Role::Mobile) => census.mobile += 1,
-            (_, Role::FixedWithPhysics) => census.fixed_with_physics += 1,
-            (_, Role::Fixed) => census.fixed += 1,
-        }
-    }
-    census
 }
 
 /// How deep a strip of the sweep is best made: the mean diagonal of the mobile bodies' rectangles, so that

@@ -3,6 +3,7 @@
 use core::fmt;
 
 use crate::area::Vec2;
+use crate::census::Census;
 use crate::check::{self, BadNumber};
 use crate::error::SceneError;
 use crate::exchange::document::Losses;
@@ -76,25 +77,6 @@ pub enum BroadPhasePlan {
     },
 }
 
-/// How many bodies of each sort a scene has.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Census {
-    /// Mobile bodies that take part in collisions.
-    pub mobile: usize,
-    /// Fixed bodies that take part, without physics.
-    pub fixed: usize,
-    /// Fixed bodies that take part, with physics.
-    pub fixed_with_physics: usize,
-    /// Bodies that do not cross the plane.
-    pub not_collidable: usize,
-    /// Bodies of several rectangles.
-    pub compound: usize,
-    /// Bodies with a prescribed motion.
-    pub prescribed: usize,
-    /// Rectangles in all.
-    pub rectangles: usize,
-}
-
 /// Up to this many pairs testing them all is cheaper than sorting anything (measured: `cargo bench --bench
 /// speed -- crossover`; three boxes between four walls are even). The result is the same either way.
 const ALL_PAIRS_UP_TO: usize = 15;
@@ -109,7 +91,7 @@ impl Plan {
         check_settings(settings).map_err(SceneError::Setting)?;
         check_models(settings)?;
         load::check_bodies(scene)?;
-        let census = load::census(scene);
+        let census = Census::of(scene);
         Ok(Plan {
             time_step: settings.time_step,
             steps: settings.steps,
@@ -263,40 +245,6 @@ impl Plan {
         .into_iter()
         .filter_map(|(absent, what)| absent.then_some(what))
         .collect()
-    }
-}
-
-impl Census {
-    fn exchange_cases(&self) -> Vec<&'static str> {
-        [
-            (self.mobile > 1, "mobile–mobile (§2.5.1)"),
-            (self.fixed_with_physics > 0, "mobile–fixed with physics (§2.5.2)"),
-            (self.fixed > 0, "mobile–fixed (§2.5.3)"),
-        ]
-        .into_iter()
-        .filter_map(|(present, case)| present.then_some(case))
-        .collect()
-    }
-}
-
-impl fmt::Display for Census {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let counts = [
-            (self.mobile, "mobile"),
-            (self.fixed_with_physics, "fixed with physics"),
-            (self.fixed, "fixed"),
-            (self.not_collidable, "not collidable"),
-        ];
-        let present: Vec<String> =
-            counts.iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!("{count} {what}")).collect();
-        write!(f, "{}", if present.is_empty() { "none".to_owned() } else { present.join(", ") })?;
-        if self.rectangles > 0 {
-            write!(f, "; {} rectangles", self.rectangles)?;
-        }
-        if self.compound > 0 {
-            write!(f, ", {} compound", self.compound)?;
-        }
-        Ok(())
     }
 }
 

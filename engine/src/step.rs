@@ -12,13 +12,13 @@ use crate::advance::{advance, is_finite};
 use crate::area::Vec2;
 use crate::bodies::Motion;
 use crate::check::shown;
-use crate::command::apply_pushes;
 use crate::detect;
 use crate::error::Fault;
 use crate::exchange::document::Losses;
 use crate::exchange::{PairKind, document, impulse};
 use crate::forces::Flight;
 use crate::plan::{ExchangePlan, FlightPlan};
+use crate::push::apply_pushes;
 use crate::relocate;
 use crate::world::{BodyId, World};
 

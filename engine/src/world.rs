@@ -4,12 +4,12 @@ use crate::advance::Movers;
 use crate::area::Vec2;
 use crate::bodies::Bodies;
 use crate::broad_phase::BroadPhase;
-use crate::command::Push;
 use crate::detect::overlap;
 use crate::directory::Directory;
 use crate::error::{Fault, SceneError};
 use crate::load;
 use crate::plan::Plan;
+use crate::push::Push;
 use crate::scene::{Kind, Scene};
 use crate::work::Work;
 
