@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::time::Duration;
 
-use choque_engine::{Work, World};
+use choque_engine::{Plan, Work, World};
 use choque_scripting::{Callbacks, Options, Scenario, Step};
 
 use crate::output::numbers::{counted, duration};
@@ -24,12 +24,12 @@ pub fn explain(file: &Path, options: &Options) -> Result<Verdict, Error> {
     let scenario = Scenario::load(file, options)?;
     let start = scenario.start()?.world().clone();
     let with_callbacks = Trial::of_script(&scenario)?;
-    let alone = Trial::of_engine(start.clone(), with_callbacks.iterations);
+    let alone = Trial::of_engine(start, with_callbacks.iterations);
     answer(&format!(
         "{}\n{}{}{}{}{}",
         styled(HEADING, &scenario.title()),
-        section("Modelled", &start.plan().modelled()),
-        section("Left out, so nobody pays for it", &listed(&start.plan().left_out())),
+        section("Modelled", &with_callbacks.plan.modelled()),
+        section("Left out, so nobody pays for it", &listed(&with_callbacks.plan.left_out())),
         section("Callbacks", &callbacks(scenario.callbacks())),
         work_done(&with_callbacks),
         time_spent(scenario.callbacks(), &with_callbacks, &alone),
@@ -68,6 +68,8 @@ fn callbacks(callbacks: Callbacks) -> Vec<String> {
 
 /// The first iterations of a scenario, counted and timed.
 struct Trial {
+    /// The plan at the end: a callback may have given a fixed body physics.
+    plan: Plan,
     iterations: u64,
     work: Work,
     /// From before the first iteration to after the last.
@@ -88,7 +90,13 @@ impl Trial {
             }
         }
         let (total, world) = (since.elapsed(), run.world());
-        Ok(Trial { iterations: world.iteration(), work: *world.work(), total, find: Duration::ZERO })
+        Ok(Trial {
+            plan: world.plan().clone(),
+            iterations: world.iteration(),
+            work: *world.work(),
+            total,
+            find: Duration::ZERO,
+        })
     }
 
     /// Without callbacks, a stopwatch between the two halves of each iteration.
@@ -103,7 +111,7 @@ impl Trial {
             find += found - begun;
             total += begun.elapsed();
         }
-        Trial { iterations: world.iteration(), work: *world.work(), total, find }
+        Trial { plan: world.plan().clone(), iterations: world.iteration(), work: *world.work(), total, find }
     }
 
     fn per_iteration(&self) -> f64 {

@@ -18,10 +18,14 @@ use crate::{Error, Verdict, terminal};
 /// # Errors
 /// A scenario that cannot be loaded or would not run; a file that cannot be written.
 pub fn export(file: &Path, output: Option<&Path>, options: &Options) -> Result<Verdict, Error> {
+    let output = output.filter(|path| *path != Path::new("-"));
+    if let Some(path) = output {
+        check_target(path)?;
+    }
     let scenario = Scenario::load(file, options)?;
     scenario.start()?; // a scene that would not run is not worth keeping
     let text = ron::scene(scenario.scene())?;
-    match output.filter(|path| *path != Path::new("-")) {
+    match output {
         None => terminal::answer(&text)?,
         Some(path) => {
             let unwritten = |source| Error::File { verb: "write", path: path.to_owned(), source };
@@ -35,8 +39,22 @@ pub fn export(file: &Path, output: Option<&Path>, options: &Options) -> Result<V
     Ok(Verdict::Holds)
 }
 
-/// Writes beside the file first and renames then.
+/// Refuses to write a scene over a script, or over anything that is no file.
+fn check_target(path: &Path) -> Result<(), Error> {
+    let refuse = |what: &str| {
+        let message = format!("{} {what}", path.display());
+        Err(Error::Call { message, hint: "a scene's file name ends in .ron: -o scene.ron".to_owned() })
+    };
+    match path.extension() {
+        Some(extension) if extension == "ron" => {}
+        _ => return refuse("is no name for a scene"),
+    }
+    if path.exists() && !path.is_file() { refuse("is there already and is no file") } else { Ok(()) }
+}
+
+/// Writes beside the file first and renames then; a link stays a link to what is replaced.
 fn replace(path: &Path, text: &str) -> io::Result<()> {
+    let path = &path.canonicalize().unwrap_or_else(|_| path.to_owned());
     let folder = match path.parent() {
         Some(parent) if parent != Path::new("") => parent,
         _ => Path::new("."),

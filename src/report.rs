@@ -102,6 +102,18 @@ impl Report {
         }
     }
 
+    /// A total that is not finite: masses and velocities may each be, and their product not.
+    #[must_use]
+    pub fn total_beyond_numbers(&self) -> Option<&'static str> {
+        let totals = [
+            ("kinetic energy", self.kinetic_energy),
+            ("momentum along x", self.momentum[0]),
+            ("momentum along z", self.momentum[1]),
+            ("angular momentum", self.angular_momentum),
+        ];
+        totals.into_iter().find(|(_, total)| !total.is_finite()).map(|(name, _)| name)
+    }
+
     /// Whether every expectation held.
     #[must_use]
     pub fn holds(&self) -> bool {

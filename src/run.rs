@@ -58,6 +58,12 @@ pub fn run(arguments: &RunArguments) -> Result<Verdict, Error> {
     let expectations = played?;
     let world = run.world();
     let report = Report::new(&scenario, &world, expectations);
+    if let Some(total) = report.total_beyond_numbers() {
+        return Err(Error::Call {
+            message: format!("the {total} is beyond the range of numbers, though no single body is"),
+            hint: "look for a huge mass or velocity".to_owned(),
+        });
+    }
     match arguments.format {
         Format::Text => {
             let told =

@@ -70,7 +70,7 @@ impl fmt::Display for Census {
             counts.iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!("{count} {what}")).collect();
         write!(f, "{}", if present.is_empty() { "none".to_owned() } else { present.join(", ") })?;
         if self.rectangles > 0 {
-            write!(f, "; {} rectangles", self.rectangles)?;
+            write!(f, "; {} rectangle{}", self.rectangles, if self.rectangles == 1 { "" } else { "s" })?;
         }
         if self.compound > 0 {
             write!(f, ", {} compound", self.compound)?;

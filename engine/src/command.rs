@@ -99,6 +99,10 @@ impl World {
     fn give_physics(&mut self, id: BodyId) {
         if self.bodies.role[id.index()] == Role::Fixed {
             self.bodies.role[id.index()] = Role::FixedWithPhysics;
+            if self.is_collidable(id) {
+                self.plan.census.fixed -= 1;
+                self.plan.census.fixed_with_physics += 1;
+            }
             self.movers.add_fixed(id.0);
         }
     }

@@ -1,6 +1,7 @@
 //! Notes: where the physics will not do what a scene seems to hope.
 
 use core::fmt;
+use std::collections::BTreeMap;
 
 use crate::area::{Rect, Vec2};
 use crate::broad_phase::BroadPhase;
@@ -34,9 +35,17 @@ impl fmt::Display for Note {
 #[must_use]
 pub fn review(scene: &Scene, world: &World) -> Vec<Note> {
     let mut notes = Vec::new();
-    for body in &scene.bodies {
-        let texts = [misses_plane(body, scene), centre_elsewhere(body), too_fast(body, scene)];
-        notes.extend(texts.into_iter().flatten().map(|text| Note { body: Some(body.name.clone()), text }));
+    for (about, look) in [
+        ("do not cross the collision plane", misses_plane as fn(&Body, &Scene) -> Option<String>),
+        ("have their rectangles' centre elsewhere", centre_elsewhere),
+        ("are fast for their thickness", too_fast),
+    ] {
+        let mut found = scene.bodies.iter().filter_map(|body| Some((body, look(body, scene)?)));
+        notes.extend(found.by_ref().take(NAMED).map(|(body, text)| Note { body: Some(body.name.clone()), text }));
+        let more = found.count();
+        if more > 0 {
+            notes.push(Note { body: None, text: format!("{more} more bodies {about}") });
+        }
     }
     notes.extend(starts_overlapped(world));
     notes
@@ -56,7 +65,7 @@ fn misses_plane(body: &Body, scene: &Scene) -> Option<String> {
 }
 
 /// O is the centre of mass by definition; rectangles that lie elsewhere are perhaps not meant so.
-fn centre_elsewhere(body: &Body) -> Option<String> {
+fn centre_elsewhere(body: &Body, _: &Scene) -> Option<String> {
     if body.kind == Kind::Fixed {
         return None;
     }
@@ -87,11 +96,11 @@ fn too_fast(body: &Body, scene: &Scene) -> Option<String> {
     let thickness = rects.iter().map(|rect| rect.width().min(rect.depth())).reduce(f64::min)?;
     let reach = rects.iter().flat_map(|rect| rect.vertices()).map(|vertex| vertex.norm()).fold(0.0, f64::max);
     let (vx, vz) = body.velocity.unwrap_or_default();
-    let travel = body.patrol.as_ref().map_or(Vec2::new(vx, vz).norm(), |patrol| patrol.speed);
+    let travel = body.patrol.as_ref().map_or(libm::hypot(vx, vz), |patrol| patrol.speed);
     let spin = body.swing.map_or(body.spin.unwrap_or(0.0), |swing| 4.0 * swing.angle / swing.period);
     let dt = scene.settings.time_step;
     let per_step = (travel + spin.abs() * reach) * dt;
-    (per_step > thickness).then(|| {
+    (per_step > thickness && per_step.is_finite()).then(|| {
         format!(
             "its fastest point moves {} m a step but it is only {} m thick, so it may pass through others; \
              use time_step({:.1e}) or less",
@@ -107,24 +116,24 @@ fn rounded(value: f64) -> f64 {
     if value < 1e12 { libm::round(value * 1e3) / 1e3 } else { value }
 }
 
-/// How many overlapping pairs are named; the rest are counted.
+/// How many notes of a kind name their body; the rest are counted.
 const NAMED: usize = 5;
 
 fn starts_overlapped(world: &World) -> Vec<Note> {
-    let mut pairs = Vec::new();
-    let mut broad_phase = BroadPhase::new(world.plan.broad_phase);
-    broad_phase.visit(&world.bodies, &mut Work::default(), |i, j, _| {
-        let depth = overlap::between(&world.bodies, i, j);
-        if depth > 0.0 {
-            pairs.push((i, j, depth));
+    // Only the first pairs are kept: a forgotten .at in a loop makes millions.
+    let mut first = BTreeMap::new();
+    let mut more = false;
+    BroadPhase::new(world.plan.broad_phase).visit(&world.bodies, &mut Work::default(), |i, j, _| {
+        let is_early = first.len() < NAMED || first.last_key_value().is_some_and(|(last, _)| (i, j) <= *last);
+        let depth = if is_early || !more { overlap::between(&world.bodies, i, j) } else { 0.0 };
+        if depth > 0.0 && first.insert((i, j), depth).is_none() && first.len() > NAMED {
+            first.pop_last();
+            more = true;
         }
     });
-    pairs.sort_unstable_by_key(|(i, j, _)| (*i, *j));
-    pairs.dedup_by_key(|(i, j, _)| (*i, *j));
-    let mut notes: Vec<Note> =
-        pairs.iter().take(NAMED).map(|&(i, j, depth)| overlap_note(world, i, j, depth)).collect();
-    if pairs.len() > NAMED {
-        notes.push(Note { body: None, text: format!("{} more pairs start overlapped", pairs.len() - NAMED) });
+    let mut notes: Vec<Note> = first.iter().map(|(&(i, j), &depth)| overlap_note(world, i, j, depth)).collect();
+    if more {
+        notes.push(Note { body: None, text: "more pairs start overlapped".to_owned() });
     }
     notes
 }
@@ -134,7 +143,7 @@ fn overlap_note(world: &World, i: usize, j: usize, depth: f64) -> Note {
     let is_seen = detect::collides(world.plan.detection, &world.bodies, i, j, &mut Work::default());
     let outcome = match (is_seen, world.plan.exchange) {
         (false, _) => "no vertex of one lies in the other, so detection(\"vertices\") does not see it",
-        (true, ExchangePlan::Document { .. }) => "the first iteration will push them apart",
+        (true, ExchangePlan::Document { .. }) => "the first iteration will begin to part them",
         (true, ExchangePlan::Impulse) => "the impulse exchange does not move bodies, so it stays until they part",
     };
     let text = format!("it starts {} m deep in \"{}\"; {outcome}", shown(rounded(depth)), name(j));

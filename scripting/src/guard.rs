@@ -80,8 +80,9 @@ impl Weight {
             self.text += map.keys().map(|key| key.len()).sum::<usize>();
             map.values().try_for_each(|entry| self.add(entry, depth + 1))?;
         } else if let Some(function) = value.read_lock::<FnPtr>() {
-            // What it captures is shared with variables, which are weighed as such.
+            // What it captures may be all that is left of a variable.
             self.count(function.curry().len())?;
+            function.curry().iter().try_for_each(|captured| self.add(captured, depth + 1))?;
         }
         if self.text > MOST_TEXT { Err(Excess::Text) } else { Ok(()) }
     }

@@ -82,6 +82,9 @@ pub(crate) fn label(what: &str, value: &Dynamic, most: usize) -> Result<Immutabl
     if length > most {
         return Err(Complaint::new(format!("{what} must have {most} characters at most, not {length}")));
     }
+    if text.chars().any(char::is_control) {
+        return Err(Complaint::new(format!("{what} must be plain text on one line, without control characters")));
+    }
     Ok(text)
 }
 

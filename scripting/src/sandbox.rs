@@ -11,7 +11,7 @@ use rhai::packages::{
     BasicArrayPackage, BasicFnPackage, BasicIteratorPackage, BasicMapPackage, BasicStringPackage, MoreStringPackage,
     Package,
 };
-use rhai::{AST, Dynamic, Engine, EvalAltResult, ParseError, Scope, exported_module};
+use rhai::{AST, Dynamic, Engine, EvalAltResult, LexError, ParseError, ParseErrorType, Scope, exported_module};
 
 use crate::clock::Clock;
 use crate::guard;
@@ -19,6 +19,7 @@ use crate::modules::Resolver;
 use crate::options::Output;
 use crate::repairs;
 use crate::session::{Session, SessionTag};
+use crate::source;
 use crate::words;
 
 /// Operations of the main part, and of each single callback: some seconds' worth, and the same number
@@ -108,8 +109,18 @@ pub(crate) fn compile(engine: &Engine, text: &str) -> Result<AST, ParseError> {
     for constant in &words::CONSTANTS {
         constants.push_constant(constant.name, constant.value);
     }
-    engine.compile_with_scope(&constants, text)
+    let ast = engine.compile_with_scope(&constants, text)?;
+    // Rhai takes a comment that is never closed for the end of the script. In such a script, and in no other, a `*/`
+    // added at the end does not disturb.
+    if engine.compile_with_scope(&constants, format!("{text}\n*/")).is_ok() {
+        let unclosed = LexError::ImproperSymbol(OPEN_COMMENT.to_owned(), String::new());
+        return Err(ParseError(ParseErrorType::BadInput(unclosed).into(), source::last_comment(text)));
+    }
+    Ok(ast)
 }
+
+/// What opens a comment over several lines.
+pub(crate) const OPEN_COMMENT: &str = "/*";
 
 /// Why a script was stopped.
 #[derive(Clone)]

@@ -44,6 +44,14 @@ pub(crate) fn tokens(text: &str) -> Vec<Token<'_>> {
     tokens
 }
 
+/// Where the last comment over several lines begins.
+pub(crate) fn last_comment(text: &str) -> rhai::Position {
+    let before = text.rfind("/*").map_or("", |at| &text[..at]);
+    let line = before.matches('\n').count() + 1;
+    let column = before.rsplit('\n').next().map_or(0, |row| row.chars().count()) + 1;
+    rhai::Position::new(u16::try_from(line).unwrap_or(u16::MAX), u16::try_from(column).unwrap_or(u16::MAX))
+}
+
 fn is_word(c: char) -> bool {
     c.is_alphanumeric() || c == '_'
 }

@@ -1,16 +1,23 @@
 //! "Did you mean …?"
 
+/// Nobody means a word by something longer; comparing takes time with the square of the length.
+const LONGEST: usize = 100;
+
 /// The candidate nearest to what was written, if any is near enough to be meant.
 pub(crate) fn nearest<'a>(written: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let allowed = match written.chars().count() {
         0 | 1 => 0, // any other letter would be near to one letter
+        LONGEST.. => 0,
         2..=5 => 1,
         6..=8 => 2,
         _ => 3,
     };
+    if allowed == 0 {
+        return None;
+    }
     candidates
         .into_iter()
-        .filter(|candidate| *candidate != written)
+        .filter(|candidate| *candidate != written && candidate.len().abs_diff(written.len()) <= 4 * allowed)
         .map(|candidate| (distance(written, candidate), candidate))
         .filter(|(distance, _)| *distance <= allowed)
         .min()

@@ -59,6 +59,9 @@ fn bad_input(error: &LexError) -> Complaint {
             Complaint::new(format!("`{escape}` stands for no character")).hint("a backslash itself is written \\\\")
         }
         LexError::MalformedChar(_) => Complaint::new("this is no single character").hint("strings are written \"…\""),
+        LexError::ImproperSymbol(sign, _) if sign == sandbox::OPEN_COMMENT => {
+            Complaint::new("this comment is not closed").hint("end it with */")
+        }
         LexError::ImproperSymbol(sign, _) if sandbox::why_withheld(sign).is_some() => reserved(sign),
         LexError::ImproperSymbol(sign, advice) if !advice.is_empty() => {
             Complaint::new(format!("`{sign}` means nothing here")).hint(lower(advice))

@@ -126,6 +126,26 @@ fn a_failed_export_leaves_the_old_scene() {
 }
 
 #[test]
+fn an_export_never_replaces_a_script() {
+    let script = "mobile(\"a\").rect(1, 1);";
+    let folder = folder(&[("scene.rhai", script)]);
+    for target in ["scene.rhai", "scene", "/dev/null"] {
+        let output = call(folder.path(), &["export", "scene.rhai", "-o", target]);
+        assert_eq!(output.status.code(), Some(2), "{target}");
+        assert!(stderr(&output).contains("a scene's file name ends in .ron"), "{}", stderr(&output));
+    }
+    assert_eq!(fs::read_to_string(folder.path().join("scene.rhai")).expect("the script"), script);
+}
+
+#[test]
+fn totals_beyond_the_numbers_are_an_error_and_not_null() {
+    let folder = folder(&[("heavy.rhai", "mobile(\"a\").rect(1, 1).velocity(1e200, 0).mass(1e200);")]);
+    let output = call(folder.path(), &["run", "heavy.rhai", "--format", "json"]);
+    assert_eq!((output.status.code(), stdout(&output).as_str()), (Some(2), ""));
+    assert!(stderr(&output).contains("the kinetic energy is beyond the range of numbers"), "{}", stderr(&output));
+}
+
+#[test]
 fn a_body_that_leaves_the_finite_numbers_ends_the_run_without_a_result() {
     let folder = folder(&[("far.rhai", "time_step(1); steps(10); mobile(\"rocket\").rect(1, 1).velocity(1e308, 0);")]);
     let output = call(folder.path(), &["run", "far.rhai", "--format", "json"]);

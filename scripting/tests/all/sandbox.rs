@@ -317,6 +317,46 @@ fn arrays_that_nest_too_deeply_are_refused() {
     }
 }
 
+/// A chain of closures would end in a stack overflow when it is dropped, and captured arrays fill the memory.
+#[test]
+fn what_closures_capture_is_weighed_too() {
+    for script in [
+        "let f = || 1; for i in 0..50000 { let g = f; f = || g; }",
+        "let x = [|| 1]; for i in 0..50000 { let g = x; let f = || g; x = [f]; }",
+        "let x = #{a: || 1}; for i in 0..50000 { let g = x; let f = || g; x = #{a: f}; }",
+    ] {
+        assert!(what(script).contains("deep within each other"), "{script}: {}", what(script));
+    }
+    let hoard = "let fs = []; for i in 0..100000 { let a = []; a.pad(50000, 1); let f = || a; fs.push(f); }";
+    assert!(what(hoard).contains("entries at most"), "{}", what(hoard));
+    // Sharing a number, or a small array, between a few closures is what closures are for.
+    let fine = "let total = 0; let fs = []; for i in 0..50 { fs.push(|| { total += i; }); } fs[3].call();";
+    assert!(Folder::with(&[("scene.rhai", fine)]).load("scene.rhai", &Options::default()).is_ok());
+}
+
+#[test]
+fn a_comment_that_is_never_closed_is_an_error() {
+    assert_snapshot!(error("mobile(\"a\").rect(1, 1);\n/* and so on\nexpect(\"no\", |world| false);"), @r#"
+    error: this comment is not closed
+     --> scene.rhai:2:1
+      |
+    2 | /* and so on
+      | ^
+      |
+      = help: end it with */
+    "#);
+    let closed = "/* a */ mobile(\"/*\").rect(1, 1); // and /* that";
+    assert!(Folder::with(&[("scene.rhai", closed)]).load("scene.rhai", &Options::default()).is_ok());
+}
+
+#[test]
+fn names_are_plain_text_on_one_line() {
+    assert_snapshot!(
+        what("mobile(\"a\\u001b[31m\").rect(1, 1);"),
+        @"error: mobile: name must be plain text on one line, without control characters"
+    );
+}
+
 #[test]
 fn deep_recursion_is_refused() {
     assert_snapshot!(error("fn f(n) { f(n + 1) }\nf(0);"), @r#"
