@@ -83,7 +83,7 @@ impl Blame<'_> {
         let call = trail.calls.iter().rev().map(|call| (call.source, call.position));
         let places = std::iter::once(known).chain(call).filter(|(_, position)| !position.is_none());
         let fallback = fallback.map(|site| (site.source.as_str(), site.position));
-        let place = places.chain(fallback).next();
+        let place = places.chain(fallback).next().or(Some((trail.source, Position::NONE)));
         let complaint = self.complaint(trail.error, place);
         self.show(complaint, place).and_notes(notes(&trail.calls))
     }
