@@ -4,8 +4,8 @@ use choque_engine::Vec2;
 use choque_engine::bodies::{Bodies, Inertia, Motion, Role};
 use choque_engine::exchange::impact::{Components, Impact, Surface};
 use choque_engine::exchange::impulse::{Arms, exchange};
-use choque_engine::frame::{Angle, Frame};
 
+use crate::columns;
 use crate::random_scenes::Random;
 
 /// The two bodies of the cases C1 and C2: 2 × 1 of 2 kg at v = (3, 0), and 1 × 3 of 3 kg at rest.
@@ -14,16 +14,9 @@ fn c_bodies() -> Bodies {
 }
 
 fn pair(of: [(f64, f64, (f64, f64), f64); 2]) -> Bodies {
-    let mut bodies = Bodies { first_rect: vec![0, 0, 0], ..Bodies::default() };
-    for (mass, moment, (vx, vz), omega) in of {
-        bodies.frame.push(Frame::new(Vec2::zeros(), 0.0));
-        bodies.lost.push(Vec2::zeros());
-        bodies.angle.push(Angle::default());
-        bodies.motion.push(Motion { v: Vec2::new(vx, vz), omega });
-        bodies.role.push(Role::Mobile);
-        bodies.inertia.push(Inertia { mass, moment });
-    }
-    bodies
+    columns(of.map(|(mass, moment, (vx, vz), omega)| {
+        (Role::Mobile, Inertia { mass, moment }, Motion { v: Vec2::new(vx, vz), omega })
+    }))
 }
 
 fn arms(r_i: (f64, f64), r_j: (f64, f64)) -> Arms {

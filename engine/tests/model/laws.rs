@@ -2,25 +2,15 @@
 
 use choque_engine::bodies::{Bodies, Inertia, Motion, Role};
 use choque_engine::exchange::document::{Losses, exchange};
-use choque_engine::frame::{Angle, Frame};
 use choque_engine::relocate::Placed;
 use choque_engine::scene::{Body, Kind, Patrol, Scene, Settings};
 use choque_engine::{PairKind, Vec2, World};
 
-use crate::{after, body, scene};
+use crate::{after, body, columns, scene};
 
 /// Two bodies of the given roles, masses and motions; places and shapes do not enter the exchange.
 fn two(of: [(Role, f64, (f64, f64), f64); 2]) -> Bodies {
-    let mut bodies = Bodies { first_rect: vec![0, 0, 0], ..Bodies::default() };
-    for (role, mass, (vx, vz), omega) in of {
-        bodies.frame.push(Frame::new(Vec2::zeros(), 0.0));
-        bodies.lost.push(Vec2::zeros());
-        bodies.angle.push(Angle::default());
-        bodies.motion.push(Motion { v: Vec2::new(vx, vz), omega });
-        bodies.role.push(role);
-        bodies.inertia.push(Inertia { mass, moment: 1.0 });
-    }
-    bodies
+    columns(of.map(|(role, mass, (vx, vz), omega)| (role, Inertia { mass, moment: 1.0 }, motion(vx, vz, omega))))
 }
 
 /// A contact of body 0's vertex in body 1, with these arms.

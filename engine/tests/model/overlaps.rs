@@ -4,9 +4,9 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
 use choque_engine::bodies::{Bodies, Inertia, Motion, Role};
 use choque_engine::detect::{Face, complete, overlap, vertices};
-use choque_engine::frame::{Angle, Frame};
 use choque_engine::{Rect, Vec2, Work};
 
+use crate::columns;
 use crate::random_scenes::Random;
 
 /// A centred rectangle: (width, depth), (x, z), angle.
@@ -14,14 +14,11 @@ type Rectangle = ((f64, f64), (f64, f64), f64);
 
 /// Two bodies of one rectangle each.
 fn bodies(of: [Rectangle; 2]) -> Bodies {
-    let mut bodies = Bodies { first_rect: vec![0, 1, 2], ..Bodies::default() };
-    for ((width, depth), (x, z), angle) in of {
-        bodies.frame.push(Frame::new(Vec2::new(x, z), angle));
-        bodies.lost.push(Vec2::zeros());
-        bodies.angle.push(Angle::new(angle));
-        bodies.motion.push(Motion::default());
-        bodies.role.push(Role::Mobile);
-        bodies.inertia.push(Inertia { mass: 1.0, moment: 1.0 });
+    let mut bodies = columns([(Role::Mobile, Inertia { mass: 1.0, moment: 1.0 }, Motion::default()); 2]);
+    bodies.first_rect = vec![0, 1, 2];
+    for (i, ((width, depth), (x, z), angle)) in of.into_iter().enumerate() {
+        bodies.place(i, Vec2::new(x, z));
+        bodies.set_angle(i, angle);
         bodies.rects.push(Rect::centred(width, depth));
     }
     bodies

@@ -2,14 +2,15 @@
 
 use std::f64::consts::PI;
 
-use choque_engine::bodies::{Bodies, Inertia, Motion, Role};
+use choque_engine::bodies::{Inertia, Motion, Role};
 use choque_engine::detect::{Face, overlap};
 use choque_engine::exchange::impact::Surface;
 use choque_engine::exchange::impulse::{Arms, exchange};
-use choque_engine::frame::{Angle, Frame};
+use choque_engine::frame::Frame;
 use choque_engine::impact_time::{Flier, first_touch};
 use choque_engine::{Rect, Vec2};
 
+use crate::columns;
 use crate::random_scenes::Random;
 
 fn flier(size: (f64, f64), at: (f64, f64), angle: f64, v: (f64, f64), omega: f64) -> Flier {
@@ -142,15 +143,8 @@ fn bounce(body: &mut Flier, wall: &Flier) {
     };
     let corners = body.rect.vertices().map(|vertex| body.frame.outward(vertex));
     let corner = corners.into_iter().min_by(|a, b| a.dot(&face).total_cmp(&b.dot(&face))).expect("four of them");
-    let mut pair = Bodies { first_rect: vec![0, 0, 0], ..Bodies::default() };
-    for (role, motion) in [(Role::Fixed, Motion::default()), (Role::Mobile, body.motion)] {
-        pair.frame.push(Frame::new(Vec2::zeros(), 0.0));
-        pair.lost.push(Vec2::zeros());
-        pair.angle.push(Angle::default());
-        pair.motion.push(motion);
-        pair.role.push(role);
-        pair.inertia.push(Inertia { mass: 1.0, moment: 5.0 / 48.0 });
-    }
+    let inertia = Inertia { mass: 1.0, moment: 5.0 / 48.0 };
+    let mut pair = columns([(Role::Fixed, inertia, Motion::default()), (Role::Mobile, inertia, body.motion)]);
     let at = Arms { r_i: Vec2::zeros(), r_j: corner };
     exchange(&mut pair, (0, 1), face, &[at], Surface { restitution: 1.0, friction: 0.0 });
     body.motion = pair.motion[1];
