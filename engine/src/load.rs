@@ -141,7 +141,7 @@ pub fn areas(body: &Body, plane: f64) -> impl Iterator<Item = Rect> {
 }
 
 /// The areas of every part, whether or not it crosses the plane: what a body weighs does not depend on that.
-fn all_areas(body: &Body) -> impl Iterator<Item = Rect> {
+pub fn all_areas(body: &Body) -> impl Iterator<Item = Rect> {
     body.parts.iter().map(|part| match part {
         Part::Rect(rect) => rect.scaled(body.scale.0, body.scale.2),
         Part::Mesh(extent) => extent.area(body.scale.0, body.scale.2),

@@ -9,7 +9,7 @@ use crate::check::shown;
 use crate::detect::{self, overlap};
 use crate::load;
 use crate::plan::ExchangePlan;
-use crate::scene::{Body, Kind, Part, Scene};
+use crate::scene::{Body, Kind, Scene};
 use crate::work::Work;
 use crate::world::{BodyId, World};
 
@@ -69,7 +69,7 @@ fn centre_elsewhere(body: &Body, _: &Scene) -> Option<String> {
     if body.kind == Kind::Fixed {
         return None;
     }
-    let rects: Vec<Rect> = body.parts.iter().map(|part| part_area(part, body)).collect();
+    let rects: Vec<Rect> = load::all_areas(body).collect();
     let area: f64 = rects.iter().map(|rect| rect.width() * rect.depth()).sum();
     let middle: Vec2 = rects.iter().map(|rect| rect.centre() * (rect.width() * rect.depth() / area)).sum();
     let size = rects.iter().map(|rect| rect.half().norm()).fold(0.0, f64::max);
@@ -81,13 +81,6 @@ fn centre_elsewhere(body: &Body, _: &Scene) -> Option<String> {
             shown(rounded(middle.y)),
         )
     })
-}
-
-fn part_area(part: &Part, body: &Body) -> Rect {
-    match part {
-        Part::Rect(rect) => rect.scaled(body.scale.0, body.scale.2),
-        Part::Mesh(extent) => extent.area(body.scale.0, body.scale.2),
-    }
 }
 
 /// Found only after a step, an overlap deeper than half a thickness is pushed out on the wrong side.

@@ -150,9 +150,8 @@ fn cut_to_face((_, frame, rect): Placed, (_, owner_frame, owner): Placed, face: 
     };
     let point = |share: f64, feature: u8| {
         let p = from + (to - from) * share;
-        let on_face = face.project(rect, p);
         let vertex = edge[0] + (edge[1] - edge[0]) * share;
-        Point { vertex, on_face, depth: (on_face - p).dot(&face.normal()), feature }
+        Point { vertex, on_face: face.project(rect, p), depth: face.depth_of(rect, p), feature }
     };
     let (start, end) = (along(from), along(to));
     let share_at = |t: f64| ((t - start) / (end - start)).clamp(0.0, 1.0);

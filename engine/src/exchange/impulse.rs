@@ -105,9 +105,11 @@ pub fn act(bodies: &mut Bodies, manifold: &Manifold) -> Option<(Vec2, Vec2)> {
 pub fn exchange(bodies: &mut Bodies, (i, j): (usize, usize), n: Vec2, points: &[Arms], surface: Surface) -> bool {
     let inverse = Inverse::of(bodies, i, j);
     let t = -perp(n);
-    let approaching = |at: &&Arms| relative_velocity(bodies, i, j, at).dot(&n) < 0.0;
+    if !points.iter().any(|at| relative_velocity(bodies, i, j, at).dot(&n) < 0.0) {
+        return false;
+    }
     match *points {
-        [at] if points.iter().any(|at| approaching(&at)) => {
+        [at] => {
             let u = relative_velocity(bodies, i, j, &at);
             let point = Impact {
                 k_tt: inverse.response(&at, t, &at, t),
@@ -118,7 +120,7 @@ pub fn exchange(bodies: &mut Bodies, (i, j): (usize, usize), n: Vec2, points: &[
             apply(bodies, i, j, &inverse, &at, t * p.t + n * p.n);
             true
         }
-        [one, two] if points.iter().any(|at| approaching(&at)) => {
+        [one, two] => {
             let mean = Arms { r_i: (one.r_i + two.r_i) * 0.5, r_j: (one.r_j + two.r_j) * 0.5 };
             let ends = [one, two];
             let face = Flat {
