@@ -64,7 +64,7 @@ pub fn advance(
 ) -> Option<usize> {
     let lost_mobile = match flight {
         FlightPlan::Free => drift(bodies, &movers.mobile, dt),
-        FlightPlan::Forced { gravity, linear, angular } => {
+        FlightPlan::Forced { gravity, linear, angular, .. } => {
             work.bodies_forced += movers.mobile.len() as u64;
             fly(bodies, &movers.mobile, gravity, linear, angular)
         }

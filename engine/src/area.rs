@@ -51,6 +51,14 @@ impl Rect {
         Vec2::new(0.5 * self.width(), 0.5 * self.depth())
     }
 
+    /// The greatest distance of any of its points from its body's centre \[m\].
+    #[must_use]
+    #[inline]
+    pub fn radius(&self) -> f64 {
+        let (x, z) = (self.x_min.abs().max(self.x_max.abs()), self.z_min.abs().max(self.z_max.abs()));
+        (x * x + z * z).sqrt()
+    }
+
     /// Its vertices in the order of reading R4.
     ///
     /// ```text

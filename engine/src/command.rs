@@ -16,6 +16,7 @@ impl World {
     pub fn set_position(&mut self, id: BodyId, position: Vec2) -> Result<(), CommandError> {
         self.finite(id, "x", position.x)?;
         self.finite(id, "z", position.y)?;
+        self.interrupt(id.index());
         self.bodies.place(id.index(), position - self.plan.origin);
         Ok(())
     }
@@ -26,6 +27,7 @@ impl World {
     /// An angle that is not finite.
     pub fn set_angle(&mut self, id: BodyId, angle: f64) -> Result<(), CommandError> {
         self.finite(id, "angle", angle)?;
+        self.interrupt(id.index());
         self.bodies.set_angle(id.index(), angle);
         Ok(())
     }
@@ -37,6 +39,7 @@ impl World {
     pub fn set_velocity(&mut self, id: BodyId, velocity: Vec2) -> Result<(), CommandError> {
         self.finite(id, "vx", velocity.x)?;
         self.finite(id, "vz", velocity.y)?;
+        self.interrupt(id.index());
         self.bodies.motion[id.index()].v = velocity;
         self.give_physics(id);
         self.movers.end_course(id.index());
@@ -49,6 +52,7 @@ impl World {
     /// A spin that is not finite.
     pub fn set_spin(&mut self, id: BodyId, spin: f64) -> Result<(), CommandError> {
         self.finite(id, "spin", spin)?;
+        self.interrupt(id.index());
         self.bodies.motion[id.index()] = Motion { omega: spin, ..self.bodies.motion[id.index()] };
         self.give_physics(id);
         self.movers.end_swing(id.index());

@@ -42,16 +42,6 @@ pub enum SceneError {
         /// How many may be.
         limit: usize,
     },
-    /// A model this version does not have.
-    #[error("{setting}(\"{word}\") is not part of this version; {instead}")]
-    NotAvailable {
-        /// The setting's name.
-        setting: &'static str,
-        /// The choice asked for.
-        word: &'static str,
-        /// What can be chosen.
-        instead: &'static str,
-    },
 }
 
 impl SceneError {
@@ -62,7 +52,7 @@ impl SceneError {
             SceneError::Number { body, .. } | SceneError::Body { body, .. } | SceneError::DuplicateName { body } => {
                 Some(body)
             }
-            SceneError::Setting(_) | SceneError::TooMany { .. } | SceneError::NotAvailable { .. } => None,
+            SceneError::Setting(_) | SceneError::TooMany { .. } => None,
         }
     }
 }

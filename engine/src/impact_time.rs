@@ -1,4 +1,4 @@
-//! The moment of impact: when two rectangles that fly and turn uniformly first touch.
+//! The moment of impact: when two rectangles in flight first touch.
 //!
 //! In the frame of one of them, the reference, a vertex of the other has the distance q(t) from a face. With
 //! |q″| ≤ A over the search, `q(t + Δ) ≥ q + q′ Δ − A Δ²/2`: until the first root of that parabola over all four
@@ -6,44 +6,46 @@
 //! separates best, and repeats. So **it cannot step over an impact**; and near one, where A Δ² fades, it is Newton's
 //! iteration and doubles its digits at every step.
 //!
-//! Circles around both come first: before they meet and after they part there is nothing to look for, and while they
-//! overlap the centres are no further apart than the radii, which bounds A:
+//! Before anything is searched, the time is cut to that in which the circles around both overlap (see [`window`]);
+//! there the centres are no further apart than the radii, which bounds A:
 //!
 //! ```text
-//! q = R(−θ_r)(d + r),   d = O_o − O_r with d″ = 0,   r the vertex, turning at ω_o
-//! |q″| ≤ ω_o²|r| + 2|ω_r|(|d′| + |ω_o||r|) + ω_r²(|d| + |r|)
+//! q = R(−θ_r)(d + r) · n − h,   d = O_o − O_r,   r the vertex of the other, turning at ω_o
+//! |q″| ≤ a + (ω_o² + α_o)|r| + 2|ω_r|(|d′| + |ω_o||r|) + (ω_r² + α_r)(|d| + |r|)
 //! ```
+//!
+//! with a, α bounds on the accelerations (gravity, drag, pushes) and |ω|, |d′| at their greatest. Between two bodies
+//! that fall alike a is zero.
+
+mod window;
 
 use crate::area::{Rect, Vec2};
-use crate::bodies::Motion;
 use crate::detect::Face;
+use crate::flight::{Path, turned};
 use crate::frame::{Frame, perp};
+use window::Bounds;
 
-/// A rectangle in uniform flight.
+/// A rectangle in flight.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Flier {
-    /// Where its body stands at time 0.
-    pub frame: Frame,
-    /// How its body moves.
-    pub motion: Motion,
+    /// How its body flies from time 0.
+    pub path: Path,
     /// The rectangle in its body's frame.
     pub rect: Rect,
 }
 
 impl Flier {
-    /// The same after a time \[s\]. The rotation is composed with that of ω·t, so that nothing depends on how often it
-    /// is asked.
+    /// The same later.
     #[must_use]
     pub fn after(&self, time: f64) -> Flier {
-        let (sin, cos) = libm::sincos(self.motion.omega * time);
-        let Frame { o, cos: c, sin: s } = self.frame;
-        let frame = Frame { o: o + self.motion.v * time, cos: c * cos - s * sin, sin: s * cos + c * sin };
-        Flier { frame, ..*self }
+        Flier { path: self.path.after(time), rect: self.rect }
     }
 
     /// The greatest distance of any of its points from its body's centre.
-    fn radius(&self) -> f64 {
-        self.rect.vertices().iter().map(|vertex| vertex.norm()).fold(0.0, f64::max)
+    #[inline]
+    #[must_use]
+    pub fn radius(&self) -> f64 {
+        self.rect.radius()
     }
 }
 
@@ -56,11 +58,22 @@ pub struct Touch {
     pub face_of_first: bool,
     /// The face that separated them to the last.
     pub face: Face,
+    /// How fast the nearest vertex comes \[m/s\].
+    pub speed: f64,
 }
 
-/// A gap below this share of the smaller rectangle's size is touching. A few roundings of the coordinates; smaller and
-/// the search would chase noise.
-const TOUCHING: f64 = 4e-16;
+/// A gap below this share of the lengths involved is touching: a few roundings of the coordinates; smaller and the
+/// search would chase noise.
+pub const TOUCHING: f64 = 4e-16;
+
+/// A vertex at a face that comes at less than this share of the speeds involved is not coming but rounded: after an
+/// impact without restitution the two move alike to 1e-16.
+pub const STILL: f64 = 1e-14;
+
+/// Faces whose gaps differ by less than this share of the smaller rectangle's size separate equally well; the first of them
+/// is the one that is hit (order: the first body's x and z, the second's). Without it two squares that meet face to
+/// face would choose by rounding.
+const ALIKE: f64 = 1e-10;
 
 /// Steps of one search; each at least halves what is left or doubles the digits, so only a grazing flight of absurd length
 /// could need as many, and it is then taken to touch where the search has come: never to have passed.
@@ -69,59 +82,56 @@ const MOST_STEPS: u32 = 10_000;
 /// When two rectangles that do not overlap first touch while approaching, within a horizon \[s\].
 #[must_use]
 pub fn first_touch(a: &Flier, b: &Flier, horizon: f64) -> Option<Touch> {
-    let (start, end) = circles_meet(a, b, horizon)?;
-    let small = a.rect.half().min().min(b.rect.half().min());
-    let scale = (a.frame.o - b.frame.o).abs().max() + a.radius() + b.radius();
-    let tolerance = TOUCHING * small.max(scale);
+    let bounds = Bounds::of(a, b, horizon);
+    let (start, end) = bounds.window(a, b, horizon)?;
+    let search = Search::new(a, b, bounds);
     let mut time = start;
     for _ in 0..MOST_STEPS {
-        let (fa, fb) = (a.after(time), b.after(time));
-        let on_a = Separation::best(&fa, &fb);
-        let on_b = Separation::best(&fb, &fa);
-        let (best, face_of_first) = if on_b.gap > on_a.gap { (on_b, false) } else { (on_a, true) };
-        let touch = Touch { time, face_of_first, face: best.face };
-        match best.advance(tolerance) {
-            Advance::Touching => return Some(touch),
+        let now = search.at(time);
+        match search.advance(&now) {
             Advance::By(step) if time + step > time => time += step,
-            Advance::By(_) => return Some(touch),
+            Advance::By(_) | Advance::Touching => return Some(search.touch(&now, time)),
         }
         if time > end {
             return None;
         }
     }
-    Some(Touch { time, face_of_first: true, face: Face::XMax })
+    Some(search.touch(&search.at(time), time))
 }
 
-/// From when to when the circles around two fliers overlap, within the horizon.
-fn circles_meet(a: &Flier, b: &Flier, horizon: f64) -> Option<(f64, f64)> {
-    let (d, u) = (b.frame.o - a.frame.o, b.motion.v - a.motion.v);
-    let reach = (a.radius() + b.radius()) * (1.0 + 1e-12); // beyond what rounding could take away
-    let (uu, du, excess) = (u.dot(&u), d.dot(&u), d.dot(&d) - reach * reach);
-    if uu == 0.0 {
-        return (excess <= 0.0).then_some((0.0, horizon));
-    }
-    let discriminant = du * du - uu * excess;
-    if discriminant < 0.0 {
-        return None;
-    }
-    // Both roots of uu t² + 2 du t + excess, the one that would cancel from the product of the two.
-    let sum = -(du + discriminant.sqrt().copysign(du));
-    let (one, two) = (sum / uu, if sum == 0.0 { 0.0 } else { excess / sum });
-    let (start, end) = (one.min(two).max(0.0), one.max(two).min(horizon));
-    (start <= end).then_some((start, end))
+/// A pair, and what holds of it all through the search.
+struct Search<'a> {
+    a: &'a Flier,
+    b: &'a Flier,
+    /// Where b's centre is from a's at time 0: differences of places first, so that far out is as exact as at home.
+    d: Vec2,
+    /// A gap below this is touching \[m\].
+    tolerance: f64,
+    /// Gaps that differ by less are alike \[m\].
+    alike: f64,
+    /// A vertex that comes more slowly is still \[m/s\].
+    still: f64,
+    bounds: Bounds,
 }
 
-/// The face of a reference that separates it best from another rectangle, and how its distances change.
-struct Separation {
+/// The pair at one time: the frames (a's centre at its own displacement, b's at d and its own), and the rest.
+struct Now {
+    frames: [Frame; 2],
+    paths: [Path; 2],
+    /// For each reference the face along x and the one along z that separate better than their opposites.
+    faces: [Separating; 4],
+}
+
+/// A face of one of the two, and how far the other rectangle is from it \[m\].
+#[derive(Clone, Copy, Debug)]
+struct Separating {
+    of_first: bool,
     face: Face,
     gap: f64,
-    /// Distance and its rate of change, of each vertex of the other from the face.
-    vertices: [(f64, f64); 4],
-    /// A: a bound on how fast the rates change.
-    bend: f64,
 }
 
 /// What a separating face allows.
+#[derive(Clone, Copy, Debug, PartialEq)]
 enum Advance {
     /// Nothing: a vertex is at the face and comes closer.
     Touching,
@@ -129,51 +139,123 @@ enum Advance {
     By(f64),
 }
 
-impl Separation {
-    fn best(reference: &Flier, other: &Flier) -> Separation {
-        let seen = other.frame.seen_from(&reference.frame);
-        let rect = &reference.rect;
-        let vertices = other.rect.vertices().map(|vertex| seen.place(vertex));
-        let gap = |face: Face| vertices.iter().map(|p| -face.depth_of(rect, *p)).fold(f64::INFINITY, f64::min);
-        let gaps = Face::ALL.map(|face| (face, gap(face)));
-        let (face, gap) = gaps[1..].iter().fold(gaps[0], |best, next| if next.1 > best.1 { *next } else { best });
-        let n = face.normal();
-        let (w_r, w_o) = (reference.motion.omega, other.motion.omega);
-        let u = reference.frame.inward(other.motion.v - reference.motion.v);
-        let rate = |vertex: Vec2, p: Vec2| {
-            let arm = seen.outward(vertex);
-            (u + perp(arm) * w_o - perp(p) * w_r).dot(&n)
-        };
-        let own = other.rect.vertices();
-        let states = [0, 1, 2, 3].map(|k| (-face.depth_of(rect, vertices[k]), rate(own[k], vertices[k])));
-        Separation { face, gap, vertices: states, bend: bend(reference, other) }
+impl<'a> Search<'a> {
+    fn new(a: &'a Flier, b: &'a Flier, bounds: Bounds) -> Self {
+        let d = b.path.frame.o - a.path.frame.o;
+        let small = a.rect.half().min().min(b.rect.half().min());
+        let scale = d.abs().max() + bounds.radii.0 + bounds.radii.1;
+        Search {
+            a,
+            b,
+            d,
+            tolerance: TOUCHING * scale,
+            alike: ALIKE * small,
+            still: STILL * bounds.speeds(a, b),
+            bounds,
+        }
     }
 
-    /// How far time may go before any vertex can be at the face.
-    fn advance(&self, tolerance: f64) -> Advance {
+    fn at(&self, time: f64) -> Now {
+        let (change_a, change_b) = (self.a.path.change(time), self.b.path.change(time));
+        let frame_a = turned(&self.a.path.frame, Vec2::zeros(), change_a.turn);
+        let frame_b = turned(&self.b.path.frame, self.d + (change_b.shift - change_a.shift), change_b.turn);
+        let path = |of: &Path, frame, motion| Path { frame, motion, pull: of.pull };
+        let (a, b) = (&self.a.rect, &self.b.rect);
+        let [ax, az] = separating(true, &frame_a, a, &frame_b, b);
+        let [bx, bz] = separating(false, &frame_b, b, &frame_a, a);
+        Now {
+            frames: [frame_a, frame_b],
+            paths: [path(&self.a.path, frame_a, change_a.motion), path(&self.b.path, frame_b, change_b.motion)],
+            faces: [ax, az, bx, bz],
+        }
+    }
+
+    /// How far time may go before any vertex can be at the face that separates best; where that one is reached, at
+    /// another that separates still.
+    fn advance(&self, now: &Now) -> Advance {
+        let best = now.best();
+        if let By(step) = self.until_reached(now, best) {
+            return By(step);
+        }
+        let others = now.faces.iter().filter(|other| other.gap >= -self.alike && other.gap < best.gap + self.alike);
+        others.fold(Advance::Touching, |found, other| match (found, self.until_reached(now, *other)) {
+            (By(so_far), By(step)) => By(so_far.max(step)),
+            (By(step), Advance::Touching) | (Advance::Touching, By(step)) => By(step),
+            (Advance::Touching, Advance::Touching) => Advance::Touching,
+        })
+    }
+
+    fn until_reached(&self, now: &Now, by: Separating) -> Advance {
+        let bend = if by.of_first { self.bounds.bend.0 } else { self.bounds.bend.1 };
         let mut step = f64::INFINITY;
-        for (q, rate) in self.vertices {
-            if q <= tolerance && rate < 0.0 {
+        for (q, rate) in self.vertices(now, by) {
+            if q <= self.tolerance && rate < -self.still {
                 return Advance::Touching;
             }
             // A vertex that lies at the face and leaves it may come back: it is followed down to the tolerance below.
-            let room = if q <= tolerance { tolerance } else { q };
-            step = step.min(first_root(room, rate, self.bend));
+            let room = q.max(self.tolerance);
+            step = step.min(first_root(room, rate, bend));
         }
-        Advance::By(step)
+        By(step)
+    }
+
+    /// Distance and its rate of change, of each vertex of the other rectangle from a face.
+    fn vertices(&self, now: &Now, by: Separating) -> [(f64, f64); 4] {
+        let (r, o) = if by.of_first { (0, 1) } else { (1, 0) };
+        let (rect, other) = if by.of_first { (&self.a.rect, &self.b.rect) } else { (&self.b.rect, &self.a.rect) };
+        let seen = now.frames[o].seen_from(&now.frames[r]);
+        let (w_r, w_o) = (now.paths[r].motion.omega, now.paths[o].motion.omega);
+        let u = now.frames[r].inward(now.paths[o].motion.v - now.paths[r].motion.v);
+        let n = by.face.normal();
+        other.vertices().map(|vertex| {
+            let arm = seen.outward(vertex);
+            let p = seen.o + arm;
+            (-by.face.depth_of(rect, p), (u + perp(arm) * w_o - perp(p) * w_r).dot(&n))
+        })
+    }
+
+    /// The touch that has been reached: at the first of the faces that separate best and are come at.
+    fn touch(&self, now: &Now, time: f64) -> Touch {
+        let best = now.best();
+        let speed = |by: Separating| {
+            let vertices = self.vertices(now, by);
+            let nearest = vertices.iter().map(|(q, _)| *q).fold(f64::INFINITY, f64::min);
+            let near = vertices.iter().filter(|(q, _)| *q <= nearest + self.alike);
+            -near.map(|(_, rate)| *rate).fold(f64::INFINITY, f64::min)
+        };
+        let alike = now.faces.iter().filter(|face| face.gap >= best.gap - self.alike);
+        let coming = alike.map(|face| (*face, speed(*face))).find(|(_, speed)| *speed > self.still);
+        let (by, speed) = coming.unwrap_or_else(|| (best, speed(best)));
+        Touch { time, face_of_first: by.of_first, face: by.face, speed: speed.max(0.0) }
     }
 }
 
-/// A: a bound on |q″| while the circles around both overlap.
-fn bend(reference: &Flier, other: &Flier) -> f64 {
-    let (w_r, w_o) = (reference.motion.omega.abs(), other.motion.omega.abs());
-    let r = other.radius();
-    let d = (reference.radius() + r) * (1.0 + 1e-9);
-    let u = (other.motion.v - reference.motion.v).norm();
-    w_o * w_o * r + 2.0 * w_r * (u + w_o * r) + w_r * w_r * (d + r)
+use Advance::By;
+
+impl Now {
+    fn best(&self) -> Separating {
+        let [first, rest @ ..] = self.faces;
+        rest.into_iter().fold(first, |best, next| if next.gap > best.gap { next } else { best })
+    }
+}
+
+/// The better of a reference's faces along x, and along z.
+#[inline]
+fn separating(of_first: bool, frame: &Frame, rect: &Rect, other_frame: &Frame, other: &Rect) -> [Separating; 2] {
+    let seen = other_frame.seen_from(frame);
+    let d = seen.place(other.centre()) - rect.centre();
+    let (half, reach) = (rect.half(), other.half());
+    let (c, s) = (seen.cos.abs(), seen.sin.abs());
+    let x = d.x.abs() - (half.x + (c * reach.x + s * reach.y));
+    let z = d.y.abs() - (half.y + (s * reach.x + c * reach.y));
+    [
+        Separating { of_first, face: if d.x >= 0.0 { Face::XMax } else { Face::XMin }, gap: x },
+        Separating { of_first, face: if d.y >= 0.0 { Face::ZMax } else { Face::ZMin }, gap: z },
+    ]
 }
 
 /// The first Δ > 0 with q + q′ Δ − A Δ²/2 = 0, for q > 0 and A ≥ 0; infinite where there is none.
+#[inline]
 fn first_root(q: f64, rate: f64, bend: f64) -> f64 {
     let root = (rate * rate + 2.0 * bend * q).sqrt();
     // (q′ + √(q′² + 2Aq))/A, or written so that it does not cancel for q′ < 0

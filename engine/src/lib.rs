@@ -5,6 +5,7 @@
 //! | what a scene says | [`scene`] | |
 //! | what it needs, decided once | [`plan`], [`census`], [`load`], [`area`] | §2.1, §2.2 |
 //! | one iteration, the story | [`step`] | §2.1 |
+//! | the other story: stop at every impact | `continuous`, [`impact_time`], [`flight`] | |
 //! | advance | [`advance`], [`forces`], [`prescribed`], [`push`] | §2.1 |
 //! | broad phase | [`broad_phase`] | §2.3 |
 //! | detect | [`detect`] | §2.3 |
@@ -43,10 +44,12 @@ pub mod broad_phase;
 pub mod census;
 pub mod check;
 pub mod command;
+mod continuous;
 pub mod detect;
 mod directory;
 pub mod error;
 pub mod exchange;
+pub mod flight;
 pub mod forces;
 pub mod frame;
 pub mod impact_time;

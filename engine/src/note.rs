@@ -9,7 +9,7 @@ use crate::check::shown;
 use crate::detect::{self, overlap};
 use crate::load;
 use crate::plan::ExchangePlan;
-use crate::scene::{Body, Kind, Scene};
+use crate::scene::{Body, Kind, MotionRule, Scene};
 use crate::work::Work;
 use crate::world::{BodyId, World};
 
@@ -85,6 +85,9 @@ fn centre_elsewhere(body: &Body, _: &Scene) -> Option<String> {
 
 /// Found only after a step, an overlap deeper than half a thickness is pushed out on the wrong side.
 fn too_fast(body: &Body, scene: &Scene) -> Option<String> {
+    if scene.settings.motion == MotionRule::Continuous {
+        return None;
+    }
     let rects: Vec<Rect> = load::areas(body, scene.settings.plane).collect();
     let thickness = rects.iter().map(|rect| rect.width().min(rect.depth())).reduce(f64::min)?;
     let reach = rects.iter().flat_map(|rect| rect.vertices()).map(|vertex| vertex.norm()).fold(0.0, f64::max);

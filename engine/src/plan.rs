@@ -20,6 +20,8 @@ pub struct Plan {
     pub steps: u64,
     /// How overlaps are found.
     pub detection: Detection,
+    /// When collisions are treated.
+    pub motion: MotionRule,
     /// How motion is handed over.
     pub exchange: ExchangePlan,
     /// How bodies fly between collisions.
@@ -60,6 +62,8 @@ pub enum FlightPlan {
         linear: Flight,
         /// Coefficients of the angular decay.
         angular: Flight,
+        /// Decay rates of velocity and of spin, which both come from \[1/s\].
+        drag: (f64, f64),
     },
 }
 
@@ -89,7 +93,6 @@ impl Plan {
     pub fn resolve(scene: &Scene) -> Result<Plan, SceneError> {
         let settings = &scene.settings;
         check_settings(settings).map_err(SceneError::Setting)?;
-        check_models(settings)?;
         load::check_bodies(scene)?;
         let census = Census::of(scene);
         Ok(Plan {
@@ -99,6 +102,7 @@ impl Plan {
                 ExchangeRule::Document => Detection::Vertices,
                 ExchangeRule::Impulse => Detection::Complete,
             }),
+            motion: settings.motion,
             exchange: match settings.exchange {
                 ExchangeRule::Document => ExchangePlan::Document {
                     epsilon: settings.epsilon,
@@ -129,18 +133,6 @@ fn check_settings(settings: &Settings) -> Result<(), BadNumber> {
     Ok(())
 }
 
-/// Refuses the choices this version does not have, rather than running something else in their place.
-fn check_models(settings: &Settings) -> Result<(), SceneError> {
-    match settings.motion {
-        MotionRule::Stepped => Ok(()),
-        MotionRule::Continuous => Err(SceneError::NotAvailable {
-            setting: "motion",
-            word: settings.motion.word(),
-            instead: "motion(\"stepped\") is",
-        }),
-    }
-}
-
 impl FlightPlan {
     fn resolve(settings: &Settings, scene: &Scene) -> Self {
         let forced = settings.gravity != (0.0, 0.0) || settings.drag != (0.0, 0.0);
@@ -151,6 +143,7 @@ impl FlightPlan {
             gravity: Vec2::new(settings.gravity.0, settings.gravity.1),
             linear: Flight::new(settings.drag.0, settings.time_step),
             angular: Flight::new(settings.drag.1, settings.time_step),
+            drag: settings.drag,
         }
     }
 }
@@ -194,9 +187,15 @@ impl Plan {
             lines.insert(2, format!("prescribed: {} patrol or swing, from the time", census.prescribed));
         }
         if self.broad_phase != BroadPhasePlan::Nothing {
-            lines.push(match self.detection {
-                Detection::Vertices => "detect: vertex in rectangle (§2.3)".to_owned(),
-                Detection::Complete => "detect: separating axes".to_owned(),
+            lines.push(match (self.motion, self.detection) {
+                (MotionRule::Stepped, Detection::Vertices) => "detect: vertex in rectangle (§2.3)".to_owned(),
+                (MotionRule::Stepped, Detection::Complete) => "detect: separating axes".to_owned(),
+                (MotionRule::Continuous, Detection::Vertices) => {
+                    "detect: the moment of impact, at its first vertex (§2.3)".to_owned()
+                }
+                (MotionRule::Continuous, Detection::Complete) => {
+                    "detect: the moment of impact, at its one or two points".to_owned()
+                }
             });
             lines.extend(self.exchange_lines());
         }
@@ -211,7 +210,10 @@ impl Plan {
             ExchangePlan::Document { epsilon, losses: Losses { mu_l, mu_a } } => {
                 let cases = self.census.exchange_cases().join(", ");
                 vec![
-                    format!("relocate: least distance + ε = {epsilon} m (§2.4)"),
+                    match self.motion {
+                        MotionRule::Stepped => format!("relocate: least distance + ε = {epsilon} m (§2.4)"),
+                        MotionRule::Continuous => format!("relocate: ε = {epsilon} m, at the moment of impact"),
+                    },
                     format!("exchange: document, μ_L = {mu_l}, μ_A = {mu_a}: {cases}"),
                 ]
             }
@@ -225,7 +227,7 @@ impl Plan {
         let Plan { census, flight, .. } = self;
         let (gravity, linear, angular) = match *flight {
             FlightPlan::Free => (false, false, false),
-            FlightPlan::Forced { gravity, linear, angular } => {
+            FlightPlan::Forced { gravity, linear, angular, .. } => {
                 (gravity != Vec2::zeros(), linear.keep != 1.0, angular.keep != 1.0)
             }
         };
@@ -250,7 +252,7 @@ impl Plan {
 
 impl fmt::Display for FlightPlan {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let FlightPlan::Forced { gravity, linear, angular } = self else {
+        let FlightPlan::Forced { gravity, linear, angular, .. } = self else {
             return write!(f, "uniform between collisions (§2.1)");
         };
         let mut terms = Vec::new();

@@ -18,6 +18,28 @@ pub struct Prescription {
 }
 
 impl Prescription {
+    /// The first time after this one at which the body turns a corner or swings back; infinite if never.
+    #[must_use]
+    pub fn next_turn(&self, time: f64) -> f64 {
+        let corner = self.course.as_ref().map_or(f64::INFINITY, |course| course.next_turn(time));
+        let end = self.swing.as_ref().map_or(f64::INFINITY, |swing| swing.next_turn(time));
+        corner.min(end)
+    }
+
+    /// Sets the body's place and angle to those prescribed for the time, and its motion to that which it has from then
+    /// until the next turn: read halfway, so that no rounding at a corner can give that of the leg before.
+    pub fn apply_until(&self, bodies: &mut Bodies, time: f64, next: f64) {
+        let halfway = if next.is_finite() { time + 0.5 * (next - time) } else { time };
+        if let Some(course) = &self.course {
+            bodies.place(self.body, course.at(time).0);
+            bodies.motion[self.body].v = course.at(halfway).1;
+        }
+        if let Some(swing) = &self.swing {
+            bodies.set_angle(self.body, swing.at(time).0);
+            bodies.motion[self.body].omega = swing.at(halfway).1;
+        }
+    }
+
     /// Sets the body's place, angle and motion to those prescribed for the time.
     pub fn apply(&self, bodies: &mut Bodies, time: f64) {
         if let Some(course) = &self.course {
@@ -67,6 +89,17 @@ impl Course {
         (length > 0.0).then_some(Course { legs, length, speed })
     }
 
+    /// The first time after this one at which a leg ends.
+    fn next_turn(&self, time: f64) -> f64 {
+        let round = self.length / self.speed;
+        let begun = libm::floor(time / round);
+        let ends = |lap: f64| {
+            let corners = self.legs.iter().skip(1).map(|leg| leg.begins).chain([self.length]);
+            corners.map(move |corner| lap * round + corner / self.speed)
+        };
+        first_after(time, ends(begun - 1.0).chain(ends(begun)).chain(ends(begun + 1.0)))
+    }
+
     /// Place and velocity at a time; at a corner already the velocity of the leg that begins there.
     #[must_use]
     pub fn at(&self, time: f64) -> (Vec2, Vec2) {
@@ -91,6 +124,14 @@ impl Swing {
         Swing { middle, amplitude: swing.angle, period: swing.period }
     }
 
+    /// The first time after this one at which it swings back.
+    fn next_turn(&self, time: f64) -> f64 {
+        let begun = libm::floor(time / self.period);
+        let turns =
+            [-1.0, 0.0, 1.0].into_iter().flat_map(|k| [0.25, 0.75].map(|part| (begun + k + part) * self.period));
+        first_after(time, turns)
+    }
+
     /// Angle and spin at a time; at a turning point already the spin of the way back.
     #[must_use]
     pub fn at(&self, time: f64) -> (f64, f64) {
@@ -103,6 +144,11 @@ impl Swing {
         };
         (self.middle + self.amplitude * wave, spin)
     }
+}
+
+/// The first of some times, in order, that is after another by more than rounding: the turn that it is already at is past.
+fn first_after(time: f64, mut times: impl Iterator<Item = f64>) -> f64 {
+    times.find(|turn| *turn > time + 4.0 * f64::EPSILON * time.abs()).unwrap_or(f64::INFINITY)
 }
 
 #[cfg(test)]

@@ -64,6 +64,11 @@ impl World {
         if self.fault.is_some() {
             return;
         }
+        if let Some(mut state) = self.continuous.take() {
+            self.begin_continuous(&mut state);
+            self.continuous = Some(state);
+            return;
+        }
         self.advance();
         self.detect();
     }
@@ -71,6 +76,11 @@ impl World {
     /// The second half, pair by pair: the next listed pair that still overlaps is relocated and exchanges.
     /// `None` when no pair is left.
     pub fn treat_next(&mut self) -> Option<Hit> {
+        if let Some(mut state) = self.continuous.take() {
+            let hit = self.treat_next_continuous(&mut state);
+            self.continuous = Some(state);
+            return hit;
+        }
         while let Some(&(i, j)) = self.listed.get(self.treated) {
             self.treated += 1;
             if let Some(hit) = self.treat(BodyId(i), BodyId(j)) {
@@ -123,7 +133,7 @@ impl World {
     }
 
     /// Detects a listed pair again, with the frames as they are by now, and treats it.
-    fn treat(&mut self, a: BodyId, b: BodyId) -> Option<Hit> {
+    pub(crate) fn treat(&mut self, a: BodyId, b: BodyId) -> Option<Hit> {
         let exchanged = match self.plan.exchange {
             ExchangePlan::Document { epsilon, losses } => self.relocate_and_exchange(a, b, epsilon, losses),
             ExchangePlan::Impulse => self.exchange_impulses(a, b),
@@ -158,13 +168,13 @@ impl World {
         Some(Exchanged { point, normal, depth: manifold.depth, kind })
     }
 
-    fn moves_finitely(&self, body: usize) -> bool {
+    pub(crate) fn moves_finitely(&self, body: usize) -> bool {
         let Motion { v, omega } = self.bodies.motion[body];
         is_finite(&self.bodies, body) & v.x.is_finite() & v.y.is_finite() & omega.is_finite()
     }
 
     /// Remembers the first body that left the finite numbers, and gives up the rest of the iteration.
-    fn report_fault(&mut self, body: usize) {
+    pub(crate) fn report_fault(&mut self, body: usize) {
         let (frame, motion) = (self.bodies.frame[body], self.bodies.motion[body]);
         self.treated = self.listed.len();
         let o = frame.o + self.plan.origin;

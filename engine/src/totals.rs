@@ -9,7 +9,7 @@ impl World {
     #[must_use]
     pub fn kinetic_energy(&self) -> f64 {
         self.sum_over_mobile(0.0, |sum, i| {
-            let (motion, inertia) = (self.bodies.motion[i], self.bodies.inertia[i]);
+            let (motion, inertia) = (self.motion_now(i), self.bodies.inertia[i]);
             sum + 0.5 * (inertia.mass * motion.v.dot(&motion.v) + inertia.moment * motion.omega * motion.omega)
         })
     }
@@ -17,15 +17,16 @@ impl World {
     /// Linear momentum of the mobile bodies \[kg·m/s\].
     #[must_use]
     pub fn momentum(&self) -> Vec2 {
-        self.sum_over_mobile(Vec2::zeros(), |sum, i| sum + self.bodies.motion[i].v * self.bodies.inertia[i].mass)
+        self.sum_over_mobile(Vec2::zeros(), |sum, i| sum + self.motion_now(i).v * self.bodies.inertia[i].mass)
     }
 
     /// Angular momentum of the mobile bodies about the world's origin \[kg·m²/s\].
     #[must_use]
     pub fn angular_momentum(&self) -> f64 {
         self.sum_over_mobile(0.0, |sum, i| {
-            let (motion, inertia) = (self.bodies.motion[i], self.bodies.inertia[i]);
-            let o = self.bodies.frame[i].o + self.plan.origin;
+            let (motion, inertia) = (self.motion_now(i), self.bodies.inertia[i]);
+            let frame = self.path_now(i).map_or(self.bodies.frame[i], |path| path.frame);
+            let o = frame.o + self.plan.origin;
             let orbital = inertia.mass * (o.x * motion.v.y - o.y * motion.v.x);
             sum + (orbital + inertia.moment * motion.omega)
         })
@@ -55,6 +56,9 @@ impl World {
                 Role::FixedWithPhysics => 1,
                 Role::Fixed => 2,
             });
+        }
+        for (a, b) in self.continuous.iter().flat_map(|state| state.lasting()) {
+            digest.word(u64::from(*a) << 32 | u64::from(*b));
         }
         digest.0
     }

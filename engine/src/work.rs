@@ -44,6 +44,8 @@ work! {
     vertices_transformed: "vertices transformed",
     /// Separating axes tried by the complete test.
     axes_tested: "axes tested",
+    /// Searches for the moment of impact of two rectangles.
+    touches_sought: "moments of impact sought",
     /// Pairs listed as overlapping.
     pairs_listed: "pairs listed",
     /// Relocations made.

@@ -1,16 +1,19 @@
 //! A running world: the bodies of a scene, where they stand and how they move.
 
+use std::borrow::Cow;
+
 use crate::advance::Movers;
 use crate::area::Vec2;
-use crate::bodies::Bodies;
+use crate::bodies::{Bodies, Motion};
 use crate::broad_phase::BroadPhase;
+use crate::continuous::Continuous;
 use crate::detect::overlap;
 use crate::directory::Directory;
 use crate::error::{Fault, SceneError};
 use crate::load;
 use crate::plan::Plan;
 use crate::push::Push;
-use crate::scene::{Kind, Scene};
+use crate::scene::{Kind, MotionRule, Scene};
 use crate::work::Work;
 
 /// A body of a world: its index in order of creation.
@@ -42,6 +45,8 @@ pub struct World {
     pub(crate) collisions: u64,
     pub(crate) fault: Option<Fault>,
     pub(crate) work: Work,
+    /// What continuous motion keeps; a stepped world has none.
+    pub(crate) continuous: Option<Box<Continuous>>,
     pub(crate) directory: Directory,
 }
 
@@ -57,7 +62,9 @@ impl World {
         for prescription in &movers.prescribed {
             prescription.apply(&mut bodies, 0.0);
         }
+        let continuous = (plan.motion == MotionRule::Continuous).then(|| Box::new(Continuous::new(&plan, &bodies)));
         Ok(World {
+            continuous,
             broad_phase: BroadPhase::new(plan.broad_phase),
             plan,
             bodies,
@@ -95,7 +102,8 @@ impl World {
     /// The time at which the bodies stand where they stand \[s\].
     #[must_use]
     pub fn time(&self) -> f64 {
-        self.advances as f64 * self.plan.time_step
+        let elapsed = self.continuous.as_ref().map_or(0.0, |state| state.elapsed());
+        self.advances as f64 * self.plan.time_step + elapsed
     }
 
     /// Exchanges so far.
@@ -180,25 +188,29 @@ impl World {
     /// Where its centre O is \[m\].
     #[must_use]
     pub fn position(&self, id: BodyId) -> Vec2 {
-        self.bodies.frame[id.index()].o + self.plan.origin
+        let frame = self.path_now(id.index()).map_or(self.bodies.frame[id.index()], |path| path.frame);
+        frame.o + self.plan.origin
     }
 
     /// Its angle \[rad\], in (−π, π].
     #[must_use]
     pub fn angle(&self, id: BodyId) -> f64 {
-        self.bodies.angle[id.index()].value
+        match self.path_now(id.index()) {
+            Some(path) => libm::atan2(path.frame.sin, path.frame.cos),
+            None => self.bodies.angle[id.index()].value,
+        }
     }
 
     /// Velocity of its centre \[m/s\].
     #[must_use]
     pub fn velocity(&self, id: BodyId) -> Vec2 {
-        self.bodies.motion[id.index()].v
+        self.motion_now(id.index()).v
     }
 
     /// Its spin \[rad/s\].
     #[must_use]
     pub fn spin(&self, id: BodyId) -> f64 {
-        self.bodies.motion[id.index()].omega
+        self.motion_now(id.index()).omega
     }
 
     /// Deepest overlap of any pair that can collide, now \[m\], by separating axes: also of a pair the vertex
@@ -207,9 +219,28 @@ impl World {
     pub fn deepest(&self) -> f64 {
         let mut broad_phase = BroadPhase::new(self.plan.broad_phase);
         let mut deepest: f64 = 0.0;
-        broad_phase.visit(&self.bodies, &mut Work::default(), |i, j, _| {
-            deepest = deepest.max(overlap::between(&self.bodies, i, j));
+        let bodies = self.bodies_now();
+        broad_phase.visit(&bodies, &mut Work::default(), |i, j, _| {
+            deepest = deepest.max(overlap::between(&bodies, i, j));
         });
         deepest
+    }
+
+    /// How a body moves now, also while an iteration is under way.
+    pub(crate) fn motion_now(&self, body: usize) -> Motion {
+        self.path_now(body).map_or(self.bodies.motion[body], |path| path.motion)
+    }
+
+    /// All bodies as they are now, also while an iteration is under way.
+    pub(crate) fn bodies_now(&self) -> Cow<'_, Bodies> {
+        if self.path_now(0).is_none() {
+            return Cow::Borrowed(&self.bodies);
+        }
+        let mut bodies = self.bodies.clone();
+        for (body, path) in (0..bodies.len()).filter_map(|body| Some((body, self.path_now(body)?))) {
+            bodies.frame[body] = path.frame;
+            bodies.motion[body] = path.motion;
+        }
+        Cow::Owned(bodies)
     }
 }

@@ -4,6 +4,7 @@
 //! collide.
 
 use crate::area::{Rect, Vec2};
+use crate::flight::Path;
 use crate::frame::Frame;
 
 /// A range along an axis, rounded outwards to f32: bounds only have to be sure, and half the bytes is
@@ -40,6 +41,36 @@ pub(super) fn bounds(frame: &Frame, rect: &Rect) -> (Range, Range) {
     let reach_x = cos * half.x + sin * half.y + widening;
     let reach_z = sin * half.x + cos * half.y + widening;
     (Range::around(centre.x - reach_x, centre.x + reach_x), Range::around(centre.y - reach_z, centre.y + reach_z))
+}
+
+/// The widened bounds of all that a rectangle sweeps over some time: its bounds now, along the way of its body's centre,
+/// padded by how far turning can carry a point, and never beyond the circle around it.
+#[inline]
+pub(super) fn swept(path: &Path, rect: &Rect, time: f64) -> (Range, Range) {
+    let (low, high) = sweep(path, rect, time);
+    let widening = widening(&path.frame, rect) + WIDENING * (high - low).sum();
+    (Range::around(low.x - widening, high.x + widening), Range::around(low.y - widening, high.y + widening))
+}
+
+/// The least and greatest coordinates of all that a rectangle sweeps over some time, sure but for rounding \[m\].
+#[inline]
+pub(crate) fn sweep(path: &Path, rect: &Rect, time: f64) -> (Vec2, Vec2) {
+    let Path { frame, motion, .. } = *path;
+    let centre = frame.outward(rect.centre());
+    let (half, cos, sin) = (rect.half(), frame.cos.abs(), frame.sin.abs());
+    let reach = Vec2::new(cos * half.x + sin * half.y, sin * half.x + cos * half.y);
+    let (mut low, mut high) = (centre - reach, centre + reach);
+    let uniform = path.pull.is_none();
+    if motion.omega != 0.0 || !uniform {
+        let radius = rect.radius();
+        let turned = (motion.omega.abs() + 0.5 * path.angular_acceleration().abs() * time) * time * radius;
+        let (pad, circle) = (Vec2::repeat(turned), Vec2::repeat(radius));
+        (low, high) = ((low - pad).sup(&-circle), (high + pad).inf(&circle));
+    }
+    let way = motion.v * time;
+    let stray = if uniform { 0.0 } else { 0.5 * path.acceleration().norm() * time * time };
+    let stray = Vec2::repeat(stray);
+    (frame.o + low + way.inf(&Vec2::zeros()) - stray, frame.o + high + way.sup(&Vec2::zeros()) + stray)
 }
 
 /// By how much bounds may be wrong, many times over.

@@ -4,12 +4,15 @@
 //! [`strips`] is held to it by a test over every scenario and a thousand random scenes.
 
 pub mod all_pairs;
-mod bounds;
+pub(crate) mod bounds;
+mod sight;
 pub mod strips;
 
 use crate::bodies::{Bodies, Role};
 use crate::plan::BroadPhasePlan;
 use crate::work::Work;
+pub use sight::Sweeping;
+use sight::{Sight, Standing};
 use strips::Strips;
 
 /// The way pairs are found, with the scratch it needs and no other.
@@ -36,10 +39,31 @@ impl BroadPhase {
 
     /// Shows every pair (i < j) worth testing to `visit`; in no order, and some more than once.
     pub fn visit(&mut self, bodies: &Bodies, work: &mut Work, visit: impl FnMut(usize, usize, &mut Work)) {
+        self.visit_what(bodies, &Standing, work, visit);
+    }
+
+    /// The same of every pair that may meet while the bodies fly for some time.
+    pub fn visit_swept(
+        &mut self,
+        bodies: &Bodies,
+        sweeping: &Sweeping,
+        work: &mut Work,
+        visit: impl FnMut(usize, usize, &mut Work),
+    ) {
+        self.visit_what(bodies, sweeping, work, visit);
+    }
+
+    fn visit_what(
+        &mut self,
+        bodies: &Bodies,
+        sight: &impl Sight,
+        work: &mut Work,
+        visit: impl FnMut(usize, usize, &mut Work),
+    ) {
         match self {
             BroadPhase::Nothing => {}
             BroadPhase::AllPairs => all_pairs::visit(bodies, work, visit),
-            BroadPhase::Strips(strips) => strips.visit(bodies, work, visit),
+            BroadPhase::Strips(strips) => strips.visit(bodies, sight, work, visit),
         }
     }
 }

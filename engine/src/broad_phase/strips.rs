@@ -13,9 +13,9 @@
 //! strips of one bucket cost a comparison, never a collision. All bounds are widened by more than the vertex
 //! test can err, so no collision is missed.
 
-use super::bounds::{Range, bounds, range_within};
+use super::bounds::Range;
+use super::sight::Sight;
 use crate::bodies::Bodies;
-use crate::detect::overlap;
 use crate::work::Work;
 
 /// The sweep's scratch; it allocates until it is warm and never after.
@@ -89,16 +89,22 @@ impl Strips {
         }
     }
 
-    /// Shows every pair (i < j) of which two rectangles are not certainly apart; some more than once.
-    pub fn visit(&mut self, bodies: &Bodies, work: &mut Work, visit: impl FnMut(usize, usize, &mut Work)) {
+    /// Shows every pair (i < j) of which two rectangles may touch; some more than once.
+    pub(super) fn visit(
+        &mut self,
+        bodies: &Bodies,
+        sight: &impl Sight,
+        work: &mut Work,
+        visit: impl FnMut(usize, usize, &mut Work),
+    ) {
         if self.owner.len() != bodies.rects.len() {
             self.number_rectangles(bodies);
         }
-        self.compute_bounds(bodies);
+        self.compute_bounds(bodies, sight);
         work.bounds += self.bounds.len() as u64;
         self.refresh_order();
-        self.enter(bodies);
-        self.sweep(bodies, work, visit);
+        self.enter(bodies, sight);
+        self.sweep(bodies, sight, work, visit);
     }
 
     fn number_rectangles(&mut self, bodies: &Bodies) {
@@ -113,11 +119,11 @@ impl Strips {
         self.begins = vec![0; buckets + 1];
     }
 
-    fn compute_bounds(&mut self, bodies: &Bodies) {
+    fn compute_bounds(&mut self, bodies: &Bodies, sight: &impl Sight) {
         let per_depth = 1.0 / self.depth;
         self.bounds.clear();
-        self.bounds.extend(self.owner.iter().zip(&bodies.rects).map(|(owner, rect)| {
-            let (x, z) = bounds(&bodies.frame[owner.body as usize], rect);
+        self.bounds.extend(self.owner.iter().enumerate().map(|(rect, owner)| {
+            let (x, z) = sight.bounds(bodies, (owner.body as usize, rect as u32));
             let strip = |z: f32| floor(f64::from(z) * per_depth);
             Bounds { x, z, first: strip(z.min), last: strip(z.max) }
         }));
@@ -153,7 +159,7 @@ impl Strips {
     }
 
     /// Fills the buckets: counted first, then placed, then each put in order.
-    fn enter(&mut self, bodies: &Bodies) {
+    fn enter(&mut self, bodies: &Bodies, sight: &impl Sight) {
         let mask = (self.begins.len() - 2) as u32;
         self.begins.fill(0);
         for bounds in &self.bounds {
@@ -175,7 +181,7 @@ impl Strips {
                 let bucket = (strip as u32 & mask) as usize;
                 let slot = self.begins[bucket];
                 self.begins[bucket] = slot + 1;
-                self.entries[slot as usize] = self.entry(bodies, rect, strip, mask);
+                self.entries[slot as usize] = self.entry(bodies, sight, rect, strip, mask);
             }
         }
         // Each bucket's begin now stands at its end, which is the next one's begin: move them up by one.
@@ -184,7 +190,7 @@ impl Strips {
     }
 
     /// A rectangle's entry in one strip.
-    fn entry(&self, bodies: &Bodies, rect: u32, strip: i32, mask: u32) -> Entry {
+    fn entry(&self, bodies: &Bodies, sight: &impl Sight, rect: u32, strip: i32, mask: u32) -> Entry {
         let Bounds { x, z, first, last } = self.bounds[rect as usize];
         let entry = Entry { x, z, rect, shows: strip == first };
         let reach = last - first;
@@ -194,9 +200,9 @@ impl Strips {
         if reach as u32 > mask {
             return Entry { shows: true, ..entry }; // it stands in every bucket once, for many strips at a time
         }
-        let frame = &bodies.frame[self.owner[rect as usize].body as usize];
+        let of = (self.owner[rect as usize].body as usize, rect);
         let slab = (f64::from(strip) * self.depth, (f64::from(strip) + 1.0) * self.depth);
-        match range_within(frame, &bodies.rects[rect as usize], slab) {
+        match sight.within(bodies, of, slab) {
             Some(cut) => Entry { x: cut.common(x), shows: true, ..entry },
             None => Entry { shows: true, ..entry },
         }
@@ -205,7 +211,13 @@ impl Strips {
     ///
     /// Two rectangles may share several strips; the pair is shown in the first that both reach into, which is
     /// the first strip of one of them. Entries cut to their strip may meet in any, and are shown in each.
-    fn sweep(&mut self, bodies: &Bodies, work: &mut Work, mut visit: impl FnMut(usize, usize, &mut Work)) {
+    fn sweep(
+        &mut self,
+        bodies: &Bodies,
+        sight: &impl Sight,
+        work: &mut Work,
+        mut visit: impl FnMut(usize, usize, &mut Work),
+    ) {
         let Strips { begins, entries, owner, met, .. } = self;
         for bucket in begins.windows(2) {
             let strip = &mut entries[bucket[0] as usize..bucket[1] as usize];
@@ -219,11 +231,11 @@ impl Strips {
                     rest = if more.first().is_some_and(|b| b.x.min <= a.x.max) { more } else { &[] };
                 }
                 if met.is_full() {
-                    show(bodies, owner, met, work, &mut visit);
+                    show(bodies, sight, owner, met, work, &mut visit);
                 }
             }
         }
-        show(bodies, owner, met, work, &mut visit);
+        show(bodies, sight, owner, met, work, &mut visit);
     }
 }
 
@@ -270,6 +282,7 @@ impl Met {
 #[inline]
 fn show(
     bodies: &Bodies,
+    sight: &impl Sight,
     owner: &[Owner],
     met: &mut Met,
     work: &mut Work,
@@ -278,7 +291,7 @@ fn show(
     for &(a, b) in &met.pairs[..core::mem::take(&mut met.count)] {
         let (one, two) = (owner[a as usize], owner[b as usize]);
         let (i, j) = (one.body as usize, two.body as usize);
-        if i != j && (one.mobile || two.mobile) && may_touch(bodies, (i, a), (j, b)) {
+        if i != j && (one.mobile || two.mobile) && sight.may_touch(bodies, (i, a), (j, b)) {
             visit(i.min(j), i.max(j), work);
         }
     }
@@ -321,12 +334,6 @@ fn put_in_order(strip: &mut [Entry]) {
         }
         patience -= k - at;
     }
-}
-
-#[inline]
-fn may_touch(bodies: &Bodies, (i, rect_i): (usize, u32), (j, rect_j): (usize, u32)) -> bool {
-    let (a, b) = (&bodies.rects[rect_i as usize], &bodies.rects[rect_j as usize]);
-    !overlap::certainly_apart(&bodies.frame[i], a, &bodies.frame[j], b)
 }
 
 /// ⌊x⌋ as a whole number; far out it stays at the ends of a range wide enough for any number of strips.

@@ -59,6 +59,12 @@ impl From<Contact> for Manifold {
 }
 
 impl Manifold {
+    /// A manifold of the first `count` of two points.
+    #[must_use]
+    pub fn new(owner: usize, reference: usize, face: Face, depth: f64, points: [Point; 2], count: usize) -> Self {
+        Manifold { owner, reference, face, depth, points, count }
+    }
+
     /// Its one or two points.
     #[must_use]
     pub fn points(&self) -> &[Point] {
@@ -100,7 +106,7 @@ pub fn find(bodies: &Bodies, i: usize, j: usize, work: &mut Work) -> Option<Mani
 }
 
 /// A rectangle of a body, with the body's index and frame.
-type Placed<'a> = (usize, &'a Frame, &'a Rect);
+pub type Placed<'a> = (usize, &'a Frame, &'a Rect);
 
 /// The manifold of two rectangles that overlap.
 fn between(i: Placed, j: Placed) -> Option<Manifold> {
@@ -139,7 +145,8 @@ fn least_overlap((_, frame, rect): Placed, (_, other_frame, other): Placed) -> O
 }
 
 /// The owner's edge that looks at the face most squarely, cut to the face's width: its two ends.
-fn cut_to_face((_, frame, rect): Placed, (_, owner_frame, owner): Placed, face: Face) -> [Point; 2] {
+#[must_use]
+pub fn cut_to_face((_, frame, rect): Placed, (_, owner_frame, owner): Placed, face: Face) -> [Point; 2] {
     let seen = owner_frame.seen_from(frame);
     let edge = facing_edge(owner, seen.inward(face.normal()));
     let [from, to] = edge.map(|vertex| seen.place(vertex));

@@ -2,6 +2,7 @@
 
 pub mod complete;
 pub mod overlap;
+pub mod touch;
 pub mod vertices;
 
 use crate::area::{Rect, Vec2};

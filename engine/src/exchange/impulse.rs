@@ -33,7 +33,7 @@ pub struct Arms {
 
 /// One over the masses and moments of a pair; zero for a body that collisions do not move.
 #[derive(Clone, Copy, Debug)]
-struct Inverse {
+pub(super) struct Inverse {
     mass_i: f64,
     mass_j: f64,
     moment_i: f64,
@@ -45,7 +45,7 @@ fn cross(a: Vec2, b: Vec2) -> f64 {
 }
 
 impl Inverse {
-    fn of(bodies: &Bodies, i: usize, j: usize) -> Self {
+    pub(super) fn of(bodies: &Bodies, i: usize, j: usize) -> Self {
         let of = |body: usize| match bodies.role[body] {
             Role::Mobile => (1.0 / bodies.inertia[body].mass, 1.0 / bodies.inertia[body].moment),
             Role::FixedWithPhysics | Role::Fixed => (0.0, 0.0),
@@ -55,7 +55,7 @@ impl Inverse {
     }
 
     /// K between an impulse along `b` at one point and the change of u along `a` at another.
-    fn response(&self, at: &Arms, a: Vec2, from: &Arms, b: Vec2) -> f64 {
+    pub(super) fn response(&self, at: &Arms, a: Vec2, from: &Arms, b: Vec2) -> f64 {
         (self.mass_i + self.mass_j) * a.dot(&b)
             + self.moment_i * cross(at.r_i, a) * cross(from.r_i, b)
             + self.moment_j * cross(at.r_j, a) * cross(from.r_j, b)
@@ -63,13 +63,13 @@ impl Inverse {
 }
 
 /// u: how fast j moves away from i at a point.
-fn relative_velocity(bodies: &Bodies, i: usize, j: usize, at: &Arms) -> Vec2 {
+pub(crate) fn relative_velocity(bodies: &Bodies, i: usize, j: usize, at: &Arms) -> Vec2 {
     let of = |body: usize, r: Vec2| bodies.motion[body].v + perp(r) * bodies.motion[body].omega;
     of(j, at.r_j) - of(i, at.r_i)
 }
 
 /// Applies p to j and −p to i.
-fn apply(bodies: &mut Bodies, i: usize, j: usize, inverse: &Inverse, at: &Arms, p: Vec2) {
+pub(super) fn apply(bodies: &mut Bodies, i: usize, j: usize, inverse: &Inverse, at: &Arms, p: Vec2) {
     bodies.motion[i].v -= p * inverse.mass_i;
     bodies.motion[i].omega -= cross(at.r_i, p) * inverse.moment_i;
     bodies.motion[j].v += p * inverse.mass_j;
@@ -83,21 +83,26 @@ fn apply(bodies: &mut Bodies, i: usize, j: usize, inverse: &Inverse, at: &Arms, 
 /// momentum and angular momentum are kept whatever the depth.
 pub fn act(bodies: &mut Bodies, manifold: &Manifold) -> Option<(Vec2, Vec2)> {
     let (reference, owner) = (manifold.reference, manifold.owner);
-    let (frame, owner_frame) = (bodies.frame[reference], bodies.frame[owner]);
+    let frame = bodies.frame[reference];
     let n = frame.outward(manifold.face.normal());
-    let arms = |point: &Point| Arms {
-        r_i: frame.outward(point.on_face) - n * (0.5 * point.depth),
-        r_j: owner_frame.outward(point.vertex) + n * (0.5 * point.depth),
-    };
     let mut both = [Arms { r_i: Vec2::zeros(), r_j: Vec2::zeros() }; 2];
     let points = manifold.points();
     for (slot, point) in both.iter_mut().zip(points) {
-        *slot = arms(point);
+        *slot = arms(bodies, manifold, n, point);
     }
     let surface = Surface::of_pair(bodies.surface[reference], bodies.surface[owner]);
     let points = &both[..points.len()];
     let middle = frame.o + points.iter().map(|at| at.r_i).sum::<Vec2>() / points.len() as f64;
     exchange(bodies, (reference, owner), n, points, surface).then_some((n, middle))
+}
+
+/// The arms of a point of a manifold whose normal is n, in world directions.
+#[must_use]
+pub fn arms(bodies: &Bodies, manifold: &Manifold, n: Vec2, point: &Point) -> Arms {
+    Arms {
+        r_i: bodies.frame[manifold.reference].outward(point.on_face) - n * (0.5 * point.depth),
+        r_j: bodies.frame[manifold.owner].outward(point.vertex) + n * (0.5 * point.depth),
+    }
 }
 
 /// Exchanges motion at one or two points, `n` pointing from i to j. `false` when the bodies are parting at every

@@ -4,6 +4,7 @@ pub mod document;
 pub mod flat;
 pub mod impact;
 pub mod impulse;
+pub mod together;
 
 use crate::bodies::Role;
 

@@ -1,6 +1,6 @@
 //! What is refused at the door, by name and value; and what stops a run.
 
-use choque_engine::scene::{Body, Kind, MotionRule, Part, Patrol, Scene, Settings, Swing};
+use choque_engine::scene::{Body, Kind, Part, Patrol, Scene, Settings, Swing};
 use choque_engine::{CommandError, Extent, Rect, Vec2, World, note};
 
 use crate::{after, body, scene};
@@ -31,12 +31,6 @@ fn settings_out_of_range_are_named_with_their_value() {
     assert_eq!(refused_setting(|s| s.restitution = 1.5), "restitution must be between 0 and 1, not 1.5");
     assert_eq!(refused_setting(|s| s.gravity.1 = f64::NAN), "gravity: z must be a finite number, not NaN");
     assert_eq!(refused_setting(|s| s.drag.0 = -1.0), "drag: linear must be 0 or more, not -1");
-}
-
-#[test]
-fn models_this_version_lacks_are_refused_and_not_replaced() {
-    let message = refused_setting(|s| s.motion = MotionRule::Continuous);
-    assert_eq!(message, "motion(\"continuous\") is not part of this version; motion(\"stepped\") is");
 }
 
 #[test]

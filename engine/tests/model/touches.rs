@@ -6,6 +6,7 @@ use choque_engine::bodies::{Inertia, Motion, Role};
 use choque_engine::detect::{Face, overlap};
 use choque_engine::exchange::impact::Surface;
 use choque_engine::exchange::impulse::{Arms, exchange};
+use choque_engine::flight::{Path, Pull};
 use choque_engine::frame::Frame;
 use choque_engine::impact_time::{Flier, first_touch};
 use choque_engine::{Rect, Vec2};
@@ -14,11 +15,9 @@ use crate::columns;
 use crate::random_scenes::Random;
 
 fn flier(size: (f64, f64), at: (f64, f64), angle: f64, v: (f64, f64), omega: f64) -> Flier {
-    Flier {
-        frame: Frame::new(Vec2::new(at.0, at.1), angle),
-        motion: Motion { v: Vec2::new(v.0, v.1), omega },
-        rect: Rect::centred(size.0, size.1),
-    }
+    let frame = Frame::new(Vec2::new(at.0, at.1), angle);
+    let motion = Motion { v: Vec2::new(v.0, v.1), omega };
+    Flier { path: Path { frame, motion, pull: Pull::NONE }, rect: Rect::centred(size.0, size.1) }
 }
 
 #[test]
@@ -76,7 +75,7 @@ fn between_now_and_the_touch_nothing_overlaps() {
         let (a, b) = (one(-1.6), one(1.6));
         let gap = |time: f64| {
             let (a, b) = (a.after(time), b.after(time));
-            -overlap::depth(&a.frame, &a.rect, &b.frame, &b.rect)
+            -overlap::depth(&a.path.frame, &a.rect, &b.path.frame, &b.rect)
         };
         if gap(0.0) <= 0.0 {
             continue;
@@ -124,7 +123,14 @@ fn e9_the_rotating_billiard_keeps_its_digits() {
         bounce(&mut body, wall);
         assert_eq!(name, row[2], "event {}", event + 1);
         let number = |column: usize| row[column].parse::<f64>().expect("a number");
-        let found = [now, body.frame.o.x, body.frame.o.y, body.motion.v.x, body.motion.v.y, body.motion.omega];
+        let found = [
+            now,
+            body.path.frame.o.x,
+            body.path.frame.o.y,
+            body.path.motion.v.x,
+            body.path.motion.v.y,
+            body.path.motion.omega,
+        ];
         let error = [1, 4, 5, 7, 8, 9].iter().zip(found).map(|(c, f)| (f - number(*c)).abs()).fold(0.0, f64::max);
         if event < 10 {
             worst_at_10 = worst_at_10.max(error);
@@ -137,15 +143,15 @@ fn e9_the_rotating_billiard_keeps_its_digits() {
 /// The corner nearest to the wall bounces off it.
 fn bounce(body: &mut Flier, wall: &Flier) {
     let face = if wall.rect.width() < wall.rect.depth() {
-        Vec2::new(-wall.frame.o.x.signum(), 0.0)
+        Vec2::new(-wall.path.frame.o.x.signum(), 0.0)
     } else {
-        Vec2::new(0.0, -wall.frame.o.y.signum())
+        Vec2::new(0.0, -wall.path.frame.o.y.signum())
     };
-    let corners = body.rect.vertices().map(|vertex| body.frame.outward(vertex));
+    let corners = body.rect.vertices().map(|vertex| body.path.frame.outward(vertex));
     let corner = corners.into_iter().min_by(|a, b| a.dot(&face).total_cmp(&b.dot(&face))).expect("four of them");
     let inertia = Inertia { mass: 1.0, moment: 5.0 / 48.0 };
-    let mut pair = columns([(Role::Fixed, inertia, Motion::default()), (Role::Mobile, inertia, body.motion)]);
+    let mut pair = columns([(Role::Fixed, inertia, Motion::default()), (Role::Mobile, inertia, body.path.motion)]);
     let at = Arms { r_i: Vec2::zeros(), r_j: corner };
     exchange(&mut pair, (0, 1), face, &[at], Surface { restitution: 1.0, friction: 0.0 });
-    body.motion = pair.motion[1];
+    body.path.motion = pair.motion[1];
 }

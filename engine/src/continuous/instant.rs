@@ -1,0 +1,278 @@
+//! One instant: the impacts that happen at it, exchanged.
+//!
+//! Impacts that share a mobile body act together ([`together`]), unless the order makes no difference ([`in_turn`]); those that they cause come after them, in turn. So
+//! bodies that touch at rest hand a blow on one after the other (the first of a row of three equal blocks in touch stops,
+//! the last flies off, as with gaps), while two blows that meet in one body at once are one impact.
+
+use super::forecast::Pair;
+use super::{Continuous, MOST_AT_ONE_INSTANT, rest};
+use crate::area::Rect;
+use crate::bodies::{Bodies, Motion};
+use crate::detect::complete::Manifold;
+use crate::detect::{Contact, touch};
+use crate::exchange::document::{self, Losses};
+use crate::exchange::{PairKind, impulse, together};
+use crate::plan::ExchangePlan;
+use crate::relocate::{Placed, separate};
+use crate::scene::Detection;
+use crate::step::Hit;
+use crate::world::{BodyId, World};
+
+impl Continuous {
+    /// Exchanges at every touch of an instant; the hits are told in the order of their pairs.
+    pub(super) fn treat_instant(&mut self, world: &mut World, touches: &mut [Pair]) {
+        touches.sort_unstable_by_key(|pair| (pair.a, pair.b, pair.rects));
+        for pair in touches.iter() {
+            self.bring(&mut world.bodies, pair.a as usize);
+            self.bring(&mut world.bodies, pair.b as usize);
+        }
+        let mut rest_of = touches;
+        while !rest_of.is_empty() {
+            let connected = bring_together(&world.bodies, rest_of);
+            let (group, others) = rest_of.split_at_mut(connected);
+            self.treat_group(world, group);
+            rest_of = others;
+        }
+        self.untold.reverse();
+    }
+
+    /// Exchanges at touches that share bodies.
+    fn treat_group(&mut self, world: &mut World, group: &[Pair]) {
+        match world.plan.exchange {
+            ExchangePlan::Document { epsilon, losses } => self.hand_over(world, group, epsilon, losses),
+            ExchangePlan::Impulse => self.strike(world, group),
+        }
+        for pair in group {
+            for body in [pair.a as usize, pair.b as usize] {
+                if world.bodies.is_mobile(body) {
+                    self.changed(body);
+                }
+                if !world.moves_finitely(body) {
+                    world.report_fault(body);
+                }
+            }
+            self.watch_for_jams(pair);
+        }
+    }
+
+    /// The document's exchange: every pair from the motions before the instant, what each changes is added up; the
+    /// relocation is by ε alone (reading R11). A pair that goes on approaching is stuck from then on.
+    fn hand_over(&mut self, world: &mut World, group: &[Pair], epsilon: f64, losses: Losses) {
+        let before: Vec<Motion> =
+            group.iter().flat_map(|p| [p.a, p.b]).map(|b| world.bodies.motion[b as usize]).collect();
+        let mut sums: Vec<(usize, Motion, Motion)> = Vec::new();
+        let mut placed_all = Vec::with_capacity(group.len());
+        for (k, pair) in group.iter().enumerate() {
+            let bodies = &mut world.bodies;
+            let contact = contact_of(bodies, pair, world.plan.detection);
+            let placed = separate(bodies, &contact, epsilon);
+            world.work.relocations += 1;
+            for (which, body) in [pair.a as usize, pair.b as usize].into_iter().enumerate() {
+                bodies.motion[body] = before[2 * k + which];
+            }
+            let kind = document::exchange(bodies, &placed, losses);
+            for (which, body) in [pair.a as usize, pair.b as usize].into_iter().enumerate() {
+                let (was, is) = (before[2 * k + which], bodies.motion[body]);
+                match sums.iter_mut().find(|(known, ..)| *known == body) {
+                    Some((_, _, sum)) => {
+                        *sum = Motion { v: sum.v + (is.v - was.v), omega: sum.omega + (is.omega - was.omega) };
+                    }
+                    None => sums.push((body, was, is)),
+                }
+            }
+            if let Some(kind) = kind {
+                self.tell(world, pair, &placed, kind);
+            }
+            placed_all.push(placed);
+        }
+        for (body, _, motion) in sums {
+            world.bodies.motion[body] = motion;
+        }
+        for (pair, placed) in group.iter().zip(&placed_all) {
+            if approaches(&world.bodies, placed) {
+                self.hold_stuck((pair.a, pair.b));
+            }
+        }
+    }
+
+    /// Impulses: one impact by the law of its one or two points, several together.
+    fn strike(&mut self, world: &mut World, group: &[Pair]) {
+        let manifolds: Vec<Manifold> =
+            group.iter().map(|pair| manifold_of(&world.bodies, pair, world.plan.detection)).collect();
+        let softened = rest::soften(self, world, &manifolds);
+        let acted = match (&manifolds[..], softened) {
+            ([manifold], false) => impulse::act(&mut world.bodies, manifold).is_some(),
+            _ => {
+                if !softened && let Some(hits) = in_turn(&mut world.bodies, &manifolds) {
+                    for k in hits {
+                        self.tell_of(world, &group[k], &manifolds[k]);
+                    }
+                    return;
+                }
+                let points: Vec<together::Point> =
+                    manifolds.iter().flat_map(|m| rest::points(&world.bodies, m, softened)).collect();
+                together::exchange(&mut world.bodies, &points)
+            }
+        };
+        if softened {
+            rest::lay_down(self, world, group);
+        }
+        if !acted {
+            return;
+        }
+        let mut told: Option<(u32, u32)> = None;
+        for (pair, manifold) in group.iter().zip(&manifolds) {
+            if told == Some((pair.a, pair.b)) {
+                continue;
+            }
+            told = Some((pair.a, pair.b));
+            self.tell_of(world, pair, manifold);
+        }
+    }
+
+    /// Notes the hit of a pair at the middle of its points.
+    fn tell_of(&mut self, world: &mut World, pair: &Pair, manifold: &Manifold) {
+        let kind = PairKind::of(world.bodies.role[pair.a as usize], world.bodies.role[pair.b as usize]);
+        let frame = world.bodies.frame[manifold.reference];
+        let points = manifold.points();
+        let middle = points.iter().map(|p| frame.place(p.on_face)).sum::<crate::area::Vec2>() / points.len() as f64;
+        let normal = frame.outward(manifold.face.normal());
+        self.note(world, pair, middle, normal, kind);
+    }
+
+    fn tell(&mut self, world: &mut World, pair: &Pair, placed: &Placed, kind: PairKind) {
+        self.note(world, pair, placed.point, placed.normal, kind);
+    }
+
+    fn note(
+        &mut self,
+        world: &mut World,
+        pair: &Pair,
+        point: crate::area::Vec2,
+        normal: crate::area::Vec2,
+        kind: PairKind,
+    ) {
+        world.work.count_exchange(kind);
+        world.collisions += 1;
+        let (a, b) = (BodyId(pair.a), BodyId(pair.b));
+        let point = point + world.plan.origin;
+        self.untold.push(Hit { iteration: world.iteration, a, b, point, normal, depth: 0.0, kind });
+    }
+
+    /// Counts how often bodies are hit without time going on.
+    fn watch_for_jams(&mut self, pair: &Pair) {
+        for body in [pair.a as usize, pair.b as usize] {
+            let (when, times) = self.hit_at[body];
+            let same = self.now <= when;
+            self.hit_at[body] = (self.now, if same { times + 1 } else { 0 });
+        }
+        let times = |body: u32| self.hit_at[body as usize].1;
+        if times(pair.a).max(times(pair.b)) > MOST_AT_ONE_INSTANT {
+            self.hold_stuck((pair.a, pair.b));
+        }
+    }
+}
+
+/// Moves the touches that share mobile bodies with the first one, directly or through others, to the front, in order; gives
+/// how many they are.
+fn bring_together(bodies: &Bodies, touches: &mut [Pair]) -> usize {
+    let mut connected = 1;
+    let mut k = 1;
+    while k < touches.len() {
+        let shares = |other: &Pair| {
+            touches[..connected].iter().any(|pair| {
+                [pair.a, pair.b].iter().any(|x| bodies.is_mobile(*x as usize) && (*x == other.a || *x == other.b))
+            })
+        };
+        if shares(&touches[k]) {
+            touches[connected..=k].rotate_right(1);
+            connected += 1;
+            k = connected;
+        } else {
+            k += 1;
+        }
+    }
+    touches[..connected].sort_unstable_by_key(|pair| (pair.a, pair.b, pair.rects));
+    connected
+}
+
+/// Exchanges at several touches one after the other, again and again until none approaches, if first to last and last
+/// to first come to the same: then there is an order in it, though not in time (equal rods that meet three at once hand their
+/// motions through). Gives the touches in the order in which they acted; `None`, and nothing is changed, when the order
+/// would decide.
+fn in_turn(bodies: &mut Bodies, manifolds: &[Manifold]) -> Option<Vec<usize>> {
+    let involved: Vec<usize> = manifolds.iter().flat_map(|m| [m.reference, m.owner]).collect();
+    let before: Vec<Motion> = involved.iter().map(|body| bodies.motion[*body]).collect();
+    let restore = |bodies: &mut Bodies, motions: &[Motion]| {
+        for (body, motion) in involved.iter().zip(motions) {
+            bodies.motion[*body] = *motion;
+        }
+    };
+    let mut attempt = |order: &[usize]| {
+        restore(bodies, &before);
+        let mut acted = Vec::new();
+        for _ in 0..2 * manifolds.len() {
+            let so_far = acted.len();
+            acted.extend(order.iter().filter(|k| impulse::act(bodies, &manifolds[**k]).is_some()));
+            if acted.len() == so_far {
+                let after: Vec<Motion> = involved.iter().map(|body| bodies.motion[*body]).collect();
+                return Some((acted, after));
+            }
+        }
+        None
+    };
+    let forwards: Vec<usize> = (0..manifolds.len()).collect();
+    let backwards: Vec<usize> = forwards.iter().rev().copied().collect();
+    let outcomes = attempt(&backwards).zip(attempt(&forwards));
+    let alike = |a: &Motion, b: &Motion| {
+        let size = 1e-12 * (a.v.norm() + b.v.norm() + a.omega.abs() + b.omega.abs());
+        (a.v - b.v).norm() <= size && (a.omega - b.omega).abs() <= size
+    };
+    match outcomes {
+        Some((one, two)) if one.1.iter().zip(&two.1).all(|(a, b)| alike(a, b)) => Some(two.0),
+        _ => {
+            restore(bodies, &before);
+            None
+        }
+    }
+}
+
+fn rect(bodies: &Bodies, body: u32, rect: u32) -> Rect {
+    bodies.rects_of(body as usize)[rect as usize]
+}
+
+/// The contact at which a pair touches: one or two points, or its first vertex alone.
+pub(super) fn manifold_of(bodies: &Bodies, pair: &Pair, detection: Detection) -> Manifold {
+    match detection {
+        Detection::Complete => whole(bodies, pair),
+        Detection::Vertices => Manifold::from(first_vertex(bodies, pair)),
+    }
+}
+
+fn contact_of(bodies: &Bodies, pair: &Pair, detection: Detection) -> Contact {
+    match detection {
+        Detection::Complete => Contact { depth: 0.0, ..whole(bodies, pair).mean() },
+        Detection::Vertices => first_vertex(bodies, pair),
+    }
+}
+
+fn whole(bodies: &Bodies, pair: &Pair) -> Manifold {
+    let (rect_a, rect_b) = (rect(bodies, pair.a, pair.rects.0), rect(bodies, pair.b, pair.rects.1));
+    let (a, b) = (pair.a as usize, pair.b as usize);
+    let one = (a, &bodies.frame[a], &rect_a);
+    let two = (b, &bodies.frame[b], &rect_b);
+    let (reference, owner) = if pair.touch.face_of_first { (one, two) } else { (two, one) };
+    touch::at_face(reference, owner, pair.touch.face)
+}
+
+fn first_vertex(bodies: &Bodies, pair: &Pair) -> Contact {
+    let (rect_a, rect_b) = (rect(bodies, pair.a, pair.rects.0), rect(bodies, pair.b, pair.rects.1));
+    touch::first_vertex(&whole(bodies, pair), |body| if body == pair.a as usize { rect_a } else { rect_b })
+}
+
+/// Whether the two go on approaching at the point of an exchange, beyond rounding.
+fn approaches(bodies: &Bodies, placed: &Placed) -> bool {
+    let of = |body: usize, r| bodies.motion[body].v + crate::frame::perp(r) * bodies.motion[body].omega;
+    let (owner, reference) = (of(placed.owner, placed.r_owner), of(placed.reference, placed.r_reference));
+    (owner - reference).dot(&placed.normal) < -crate::impact_time::STILL * (owner.norm() + reference.norm())
+}

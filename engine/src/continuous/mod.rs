@@ -1,0 +1,380 @@
+//! Continuous motion: the other story of an iteration. Bodies fly to the earliest impact, exchange there, and go on.
+//!
+//! | stage | function |
+//! |---|---|
+//! | a segment begins: what will touch is foreseen | [`Continuous::begin_segment`] |
+//! | the earliest instant: all impacts at it | [`Continuous::next_instant`] |
+//! | exchange there | [`instant`] |
+//! | what rests is held | [`rest`] |
+//! | the two bodies' future is foreseen again | [`Continuous::foresee`] |
+//! | the segment ends: every body flies to its end | [`Continuous::end_segment`] |
+//! | pairs that overlap for good are treated as stepped motion does | [`World::treat_stuck`] |
+//!
+//! A segment is an iteration, or a part of one so short that a body of middling speed moves about half its own size: then
+//! it meets few others and what is foreseen is seldom in vain.
+//!
+//! **Finite work.** A pair that would bounce lower than [`rest::REST_HEIGHT`] of its size rests. A vertex that comes at
+//! less than [`crate::impact_time::STILL`] of the speeds involved does not come. A body that is hit more than
+//! [`MOST_AT_ONE_INSTANT`] times without time going on is jammed: that pair is treated once an iteration from then on.
+
+mod forecast;
+mod foresight;
+mod instant;
+mod neighbours;
+mod rest;
+
+use crate::bodies::Bodies;
+use crate::broad_phase::Sweeping;
+use crate::flight::{Path, Pull};
+use crate::plan::{BroadPhasePlan, FlightPlan, Plan};
+use crate::step::Hit;
+use crate::world::World;
+use forecast::{Event, Forecast, Pair, What};
+use neighbours::Neighbours;
+
+/// How often a body may be hit at one instant before the pair is taken to be jammed: enough for a pile that settles,
+/// and finite.
+const MOST_AT_ONE_INSTANT: u32 = 500;
+
+/// How far, in its own size, a body of middling speed goes in a segment. Shorter segments foresee less in vain and sweep
+/// more often; measured on a gas (`cargo bench --bench gas`).
+const REACH: f64 = 0.5;
+
+/// The state of continuous motion; a stepped world has none.
+#[derive(Clone, Debug)]
+pub(crate) struct Continuous {
+    /// What acts on each body; empty while nothing acts on any.
+    pulls: Vec<Pull>,
+    /// The same without what holds those that rest.
+    free: Vec<Pull>,
+    /// The time to which each body has flown, from the segment's start \[s\].
+    since: Vec<f64>,
+    /// The present: from the iteration's start to the segment's, and from there \[s\].
+    segment: f64,
+    now: f64,
+    length: f64,
+    forecast: Forecast,
+    neighbours: Neighbours,
+    /// Size of a middling body \[m\]; `None` where every pair is foreseen at once.
+    size: Option<f64>,
+    /// Bodies whose future is to be foreseen again.
+    dirty: Vec<u32>,
+    /// Pairs treated once an iteration, in order.
+    stuck: Vec<(u32, u32)>,
+    /// Pairs at rest on each other.
+    resting: Vec<(u32, u32)>,
+    /// Hits not told yet, the next one last.
+    untold: Vec<Hit>,
+    /// Of each body, when it was last hit, and how often at that instant.
+    hit_at: Vec<(f64, u32)>,
+    phase: Phase,
+    scratch: Scratch,
+}
+
+/// Buffers, warm after the first uses.
+#[derive(Clone, Debug, Default)]
+struct Scratch {
+    found: Vec<u32>,
+    instant: Vec<Pair>,
+}
+
+/// Where in an iteration the world is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Phase {
+    /// Between iterations.
+    Outside,
+    /// Flying through a segment.
+    Flying,
+    /// At the end, treating stuck pairs: the next one.
+    Late(usize),
+}
+
+impl Continuous {
+    pub(crate) fn new(plan: &Plan, bodies: &Bodies) -> Self {
+        let count = bodies.len();
+        let size = match plan.broad_phase {
+            BroadPhasePlan::Strips { depth } => Some(depth),
+            BroadPhasePlan::Nothing | BroadPhasePlan::AllPairs => None,
+        };
+        Continuous {
+            pulls: Vec::new(),
+            free: Vec::new(),
+            since: vec![0.0; count],
+            segment: 0.0,
+            now: 0.0,
+            length: 0.0,
+            forecast: Forecast::new(count),
+            neighbours: Neighbours::new(size.unwrap_or(1.0), count),
+            size,
+            dirty: Vec::new(),
+            stuck: Vec::new(),
+            resting: Vec::new(),
+            untold: Vec::new(),
+            hit_at: vec![(f64::NEG_INFINITY, 0); count],
+            phase: Phase::Outside,
+            scratch: Scratch::default(),
+        }
+    }
+
+    /// Time since the iteration began, while it is under way \[s\].
+    pub(crate) fn elapsed(&self) -> f64 {
+        if self.phase == Phase::Flying { self.segment + self.now } else { 0.0 }
+    }
+
+    /// Pairs whose state decides how the world goes on.
+    pub(crate) fn lasting(&self) -> impl Iterator<Item = &(u32, u32)> {
+        self.stuck.iter().chain(&self.resting)
+    }
+
+    /// How a body flies from now on.
+    fn path(&self, bodies: &Bodies, body: usize) -> Path {
+        let path = Path::of(bodies, &self.pulls, body);
+        let late = self.now - self.since[body];
+        if late > 0.0 { path.after(late) } else { path }
+    }
+
+    /// Moves a body to where it is now.
+    fn bring(&mut self, bodies: &mut Bodies, body: usize) {
+        let late = self.now - self.since[body];
+        if late > 0.0 {
+            fly(bodies, &self.pulls, body, late);
+            self.since[body] = self.now;
+        }
+    }
+
+    /// A body flies otherwise from now on.
+    fn changed(&mut self, body: usize) {
+        self.forecast.changed(body);
+        self.dirty.push(body as u32);
+    }
+}
+
+/// Moves a body on by some time.
+fn fly(bodies: &mut Bodies, pulls: &[Pull], body: usize, time: f64) {
+    let change = Path::of(bodies, pulls, body).change(time);
+    bodies.shift(body, change.shift);
+    if change.turn != 0.0 {
+        bodies.turn(body, change.turn);
+    }
+    bodies.motion[body] = change.motion;
+}
+
+/// The story, told by the world.
+impl World {
+    /// The first half: what acts in this iteration, and what will touch.
+    pub(crate) fn begin_continuous(&mut self, state: &mut Continuous) {
+        state.segment = 0.0;
+        state.untold.clear();
+        state.set_pulls(self);
+        state.begin_segment(self);
+    }
+
+    /// The next exchange; `None` when the iteration is over.
+    pub(crate) fn treat_next_continuous(&mut self, state: &mut Continuous) -> Option<Hit> {
+        loop {
+            if self.fault.is_some() {
+                return None;
+            }
+            if let Some(hit) = state.untold.pop() {
+                return Some(hit);
+            }
+            match state.phase {
+                Phase::Outside => return None,
+                Phase::Late(next) => match self.treat_stuck(state, next) {
+                    Some(hit) => return Some(hit),
+                    None => state.phase = Phase::Outside,
+                },
+                Phase::Flying => {
+                    state.foresee_dirty(self);
+                    if !state.next_instant(self) {
+                        state.end_segment(self);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Pairs that overlap for good: once an iteration, at its end, as stepped motion does.
+    fn treat_stuck(&mut self, state: &mut Continuous, mut next: usize) -> Option<Hit> {
+        while let Some(&(a, b)) = state.stuck.get(next) {
+            next += 1;
+            state.phase = Phase::Late(next);
+            let (a, b) = (crate::world::BodyId(a), crate::world::BodyId(b));
+            if let Some(hit) = self.treat(a, b) {
+                return Some(hit);
+            }
+        }
+        let bodies = &self.bodies;
+        state.stuck.retain(|(a, b)| foresight::holds_together(bodies, *a as usize, *b as usize));
+        None
+    }
+}
+
+impl Continuous {
+    /// What acts on the bodies in this iteration: the scene's forces, and pushes.
+    fn set_pulls(&mut self, world: &mut World) {
+        let forces = match world.plan.flight {
+            FlightPlan::Free => None,
+            FlightPlan::Forced { gravity, drag, .. } => Some(Pull { a: gravity, alpha: 0.0, drag }),
+        };
+        self.pulls.clear();
+        if forces.is_none() && world.pushes.is_empty() {
+            return;
+        }
+        self.pulls.resize(world.bodies.len(), Pull::NONE);
+        for &body in &world.movers.mobile {
+            self.pulls[body as usize] = forces.unwrap_or(Pull::NONE);
+        }
+        for push in &world.pushes {
+            let body = push.body as usize;
+            self.pulls[body].a += push.force / world.bodies.inertia[body].mass;
+            self.pulls[body].alpha += push.torque / world.bodies.inertia[body].moment;
+        }
+        world.pushes.clear();
+        self.free.clone_from(&self.pulls);
+    }
+
+    /// Foresees what will touch from here to the segment's end.
+    fn begin_segment(&mut self, world: &mut World) {
+        let whole = world.plan.time_step;
+        let rest = whole - self.segment;
+        self.length = self.horizon(world).map_or(rest, |most| if most < 0.75 * rest { most } else { rest });
+        self.now = 0.0;
+        self.since.fill(0.0);
+        self.hit_at.fill((f64::NEG_INFINITY, 0));
+        self.phase = Phase::Flying;
+        self.forecast.clear();
+        self.neighbours.forget();
+        self.begin_prescribed(world);
+        rest::hold(self, world);
+        let World { broad_phase, bodies, work, .. } = world;
+        let pulls = core::mem::take(&mut self.pulls);
+        let sweeping = Sweeping { pulls: &pulls, time: self.length };
+        broad_phase.visit_swept(bodies, &sweeping, work, |i, j, work| {
+            self.foresee(bodies, &pulls, (i, j), work);
+        });
+        self.pulls = pulls;
+        self.dirty.clear();
+    }
+
+    /// How long a segment may be \[s\]; `None` where every pair is foreseen at once.
+    fn horizon(&self, world: &World) -> Option<f64> {
+        let size = self.size?;
+        let speeds = world.movers.mobile.iter().map(|body| {
+            let motion = world.bodies.motion[*body as usize];
+            motion.v.abs().max() + motion.omega.abs() * size * 0.5
+        });
+        let mean = speeds.sum::<f64>() / world.movers.mobile.len().max(1) as f64;
+        (mean > 0.0).then(|| REACH * size / mean)
+    }
+
+    /// Takes what happens at the earliest instant of the segment; `false` when nothing more happens in it.
+    fn next_instant(&mut self, world: &mut World) -> bool {
+        let Some(first) = self.forecast.next_within(self.length) else { return false };
+        self.now = first.time.max(self.now);
+        match first.what {
+            What::Touch(pair) => {
+                let mut instant = core::mem::take(&mut self.scratch.instant);
+                instant.clear();
+                instant.push(pair);
+                self.gather(&first, &mut instant);
+                self.treat_instant(world, &mut instant);
+                self.scratch.instant = instant;
+            }
+            What::Turn(at) => self.turn(world, at as usize),
+        }
+        true
+    }
+
+    /// The other touches at the same instant: their gaps are closed by now, to within rounding.
+    fn gather(&mut self, first: &Event, instant: &mut Vec<Pair>) {
+        while let Some(event) = self.forecast.next_within(self.length) {
+            match event.what {
+                What::Touch(pair) if event.time - first.time <= event.blur => instant.push(pair),
+                _ => {
+                    self.forecast.put_back(event);
+                    return;
+                }
+            }
+        }
+    }
+
+    /// Every body flies to the segment's end.
+    fn end_segment(&mut self, world: &mut World) {
+        let World { bodies, movers, work, .. } = world;
+        for &body in movers.mobile.iter().chain(&movers.fixed) {
+            let late = self.length - self.since[body as usize];
+            fly(bodies, &self.pulls, body as usize, late);
+        }
+        work.bodies_advanced += (movers.mobile.len() + movers.fixed.len()) as u64;
+        if !self.pulls.is_empty() {
+            work.bodies_forced += movers.mobile.len() as u64;
+        }
+        self.segment += self.length;
+        self.since.fill(0.0);
+        self.now = 0.0;
+        let lost = movers.mobile.iter().find(|body| !crate::advance::is_finite(bodies, **body as usize));
+        if let Some(body) = lost {
+            let body = *body as usize;
+            world.report_fault(body);
+        } else if self.segment < world.plan.time_step {
+            self.begin_segment(world);
+            return;
+        }
+        self.phase = Phase::Late(0);
+        world.advances += 1;
+        let time = world.advances as f64 * world.plan.time_step;
+        for prescription in &world.movers.prescribed {
+            prescription.apply(&mut world.bodies, time);
+        }
+        world.work.prescribed += world.movers.prescribed.len() as u64;
+    }
+
+    /// Prescribed bodies stand where they are prescribed to, and their next corners are foreseen.
+    fn begin_prescribed(&mut self, world: &mut World) {
+        for at in 0..world.movers.prescribed.len() {
+            self.prescribe(world, at, 0.0);
+        }
+    }
+
+    /// A prescribed body turns: it and those near it are looked at again.
+    fn turn(&mut self, world: &mut World, at: usize) {
+        let Some(which) = world.movers.prescribed.iter().position(|p| p.body == at) else { return };
+        self.forecast.changed(at);
+        self.since[at] = self.now;
+        self.prescribe(world, which, self.now);
+        self.dirty.push(at as u32);
+    }
+
+    /// Puts a prescribed body where it stands now, moving as it will until its next turn.
+    fn prescribe(&mut self, world: &mut World, which: usize, now: f64) {
+        let start = world.advances as f64 * world.plan.time_step + self.segment;
+        let prescription = &world.movers.prescribed[which];
+        let next = prescription.next_turn(start + now);
+        prescription.apply_until(&mut world.bodies, start + now, next);
+        world.work.prescribed += 1;
+        let body = prescription.body;
+        if next - start <= self.length {
+            self.forecast.expect((next - start).max(now), 0.0, What::Turn(body as u32));
+        }
+    }
+}
+
+/// What readers and commands see while an iteration is under way.
+impl World {
+    /// A body as it is now.
+    pub(crate) fn path_now(&self, body: usize) -> Option<Path> {
+        let state = self.continuous.as_ref().filter(|state| state.phase == Phase::Flying)?;
+        Some(state.path(&self.bodies, body))
+    }
+
+    /// A command is about to change a body: it is brought to where it is now, and its future is foreseen anew.
+    pub(crate) fn interrupt(&mut self, body: usize) {
+        let Some(mut state) = self.continuous.take() else { return };
+        if state.phase == Phase::Flying {
+            state.bring(&mut self.bodies, body);
+            state.changed(body);
+        }
+        self.continuous = Some(state);
+    }
+}
