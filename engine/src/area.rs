@@ -59,6 +59,13 @@ impl Rect {
         (x * x + z * z).sqrt()
     }
 
+    /// A quick bound on [`Rect::radius`] \[m\].
+    #[must_use]
+    #[inline]
+    pub fn far(&self) -> f64 {
+        self.x_min.abs().max(self.x_max.abs()) + self.z_min.abs().max(self.z_max.abs())
+    }
+
     /// Its vertices in the order of reading R4.
     ///
     /// ```text

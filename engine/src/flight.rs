@@ -60,16 +60,17 @@ impl Path {
         Path { frame: bodies.frame[body], motion: bodies.motion[body], pull }
     }
 
-    /// A bound on how far points of two bodies, with these radii, come towards each other within a time \[m\].
+    /// A bound on how far points of two bodies come towards each other within a time \[m\]: sure and quick, not sharp. The
+    /// bodies' points are no further from their centres than the radii.
     #[inline]
     #[must_use]
     pub fn closing(&self, other: &Path, radius: f64, other_radius: f64, time: f64) -> f64 {
         let u = other.motion.v - self.motion.v;
-        let speed = u.norm() + self.motion.omega.abs() * radius + other.motion.omega.abs() * other_radius;
+        let speed = u.x.abs() + u.y.abs() + self.motion.omega.abs() * radius + other.motion.omega.abs() * other_radius;
         if self.pull.is_none() && other.pull.is_none() {
             return speed * time;
         }
-        let pulled = self.acceleration().norm() + other.acceleration().norm();
+        let pulled = self.acceleration().abs().sum() + other.acceleration().abs().sum();
         let spun = self.angular_acceleration().abs() * radius + other.angular_acceleration().abs() * other_radius;
         (speed + 0.5 * (pulled + spun) * time) * time
     }

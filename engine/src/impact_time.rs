@@ -6,7 +6,7 @@
 //! separates best, and repeats. So **it cannot step over an impact**; and near one, where A Δ² fades, it is Newton's
 //! iteration and doubles its digits at every step.
 //!
-//! Before anything is searched, the time is cut to that in which the circles around both overlap (see [`window`]);
+//! Before anything is searched, the time is cut to that in which the circles around both overlap;
 //! there the centres are no further apart than the radii, which bounds A:
 //!
 //! ```text

@@ -67,12 +67,9 @@ impl Sight for Sweeping<'_> {
         if stands { range_within(&path.frame, &bodies.rects[rect as usize], slab) } else { None }
     }
 
-    /// The gap between the two closes no faster than their points move against each other.
+    /// Left to whoever foresees: a second look here would cost as much.
     #[inline]
-    fn may_touch(&self, bodies: &Bodies, (i, rect_i): Of, (j, rect_j): Of) -> bool {
-        let (a, b) = (&bodies.rects[rect_i as usize], &bodies.rects[rect_j as usize]);
-        let (one, two) = (self.path(bodies, i), self.path(bodies, j));
-        let gap = -overlap::depth(&one.frame, a, &two.frame, b);
-        gap <= 0.0 || gap * (1.0 - 1e-12) <= one.closing(&two, a.radius(), b.radius(), self.time)
+    fn may_touch(&self, _: &Bodies, _: Of, _: Of) -> bool {
+        true
     }
 }

@@ -37,6 +37,13 @@ pub(super) struct Pair {
     pub(super) touch: Touch,
 }
 
+impl Pair {
+    /// Bodies and rectangles: the order in which impacts of one instant are told.
+    pub(super) fn key(&self) -> (u32, u32, u32, u32) {
+        (self.a, self.b, self.rects.0, self.rects.1)
+    }
+}
+
 impl What {
     /// The one or two bodies it concerns.
     fn bodies(&self) -> (u32, u32) {
@@ -48,7 +55,7 @@ impl What {
 
     fn rank(&self) -> (u32, u32, u32, u32) {
         match *self {
-            What::Touch(Pair { a, b, rects, .. }) => (a, b, rects.0, rects.1),
+            What::Touch(pair) => pair.key(),
             What::Turn(body) => (body, body, 0, 0),
         }
     }

@@ -34,7 +34,7 @@ impl Continuous {
             for (l, rect_j) in bodies.rects_of(j).iter().enumerate() {
                 work.pairs_tested += 1;
                 let depth = overlap::depth(&one.frame, rect_i, &two.frame, rect_j);
-                if -depth > one.closing(&two, rect_i.radius(), rect_j.radius(), left) * (1.0 + 1e-12) {
+                if -depth > one.closing(&two, rect_i.far(), rect_j.far(), left) * (1.0 + 1e-12) {
                     continue;
                 }
                 let small = rect_i.half().min().min(rect_j.half().min());

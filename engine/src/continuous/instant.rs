@@ -18,10 +18,22 @@ use crate::scene::Detection;
 use crate::step::Hit;
 use crate::world::{BodyId, World};
 
+/// A touch at less than this share of the speeds at which the two pass each other moves nothing that can be seen; it is
+/// without restitution. So a corner that rattles while its body slides comes down in a few touches.
+const CREEPING: f64 = 1e-6;
+
+fn creeps(bodies: &Bodies, pair: &Pair) -> bool {
+    let turning = |body: u32| {
+        let rects = bodies.rects_of(body as usize);
+        bodies.motion[body as usize].omega.abs() * rects.iter().map(Rect::far).fold(0.0, f64::max)
+    };
+    let passing = (bodies.motion[pair.a as usize].v - bodies.motion[pair.b as usize].v).norm();
+    pair.touch.speed < CREEPING * (passing + turning(pair.a) + turning(pair.b))
+}
+
 impl Continuous {
     /// Exchanges at every touch of an instant; the hits are told in the order of their pairs.
     pub(super) fn treat_instant(&mut self, world: &mut World, touches: &mut [Pair]) {
-        touches.sort_unstable_by_key(|pair| (pair.a, pair.b, pair.rects));
         for pair in touches.iter() {
             self.bring(&mut world.bodies, pair.a as usize);
             self.bring(&mut world.bodies, pair.b as usize);
@@ -51,7 +63,7 @@ impl Continuous {
                     world.report_fault(body);
                 }
             }
-            self.watch_for_jams(pair);
+            self.watch_for_jams(&world.bodies, pair);
         }
     }
 
@@ -99,7 +111,8 @@ impl Continuous {
     fn strike(&mut self, world: &mut World, group: &[Pair]) {
         let manifolds: Vec<Manifold> =
             group.iter().map(|pair| manifold_of(&world.bodies, pair, world.plan.detection)).collect();
-        let softened = rest::soften(self, world, &manifolds);
+        let rests = rest::soften(self, world, &manifolds);
+        let softened = rests || group.iter().all(|pair| creeps(&world.bodies, pair));
         let acted = match (&manifolds[..], softened) {
             ([manifold], false) => impulse::act(&mut world.bodies, manifold).is_some(),
             _ => {
@@ -114,7 +127,7 @@ impl Continuous {
                 together::exchange(&mut world.bodies, &points)
             }
         };
-        if softened {
+        if rests {
             rest::lay_down(self, world, group);
         }
         if !acted {
@@ -159,12 +172,15 @@ impl Continuous {
         self.untold.push(Hit { iteration: world.iteration, a, b, point, normal, depth: 0.0, kind });
     }
 
-    /// Counts how often bodies are hit without time going on.
-    fn watch_for_jams(&mut self, pair: &Pair) {
+    /// Counts how often bodies are hit without time going on, or hardly at all: a blade that turns against what it pushes
+    /// touches it again and again at a share of its speed that is next to nothing.
+    fn watch_for_jams(&mut self, bodies: &Bodies, pair: &Pair) {
+        let creeps = creeps(bodies, pair);
         for body in [pair.a as usize, pair.b as usize] {
             let (when, times) = self.hit_at[body];
-            let same = self.now <= when;
-            self.hit_at[body] = (self.now, if same { times + 1 } else { 0 });
+            let again = creeps || self.now <= when;
+            self.hit_at[body] = (self.now, if again { times + 1 } else { 0 });
+            self.was_hit.push(body as u32);
         }
         let times = |body: u32| self.hit_at[body as usize].1;
         if times(pair.a).max(times(pair.b)) > MOST_AT_ONE_INSTANT {
@@ -192,7 +208,7 @@ fn bring_together(bodies: &Bodies, touches: &mut [Pair]) -> usize {
             k += 1;
         }
     }
-    touches[..connected].sort_unstable_by_key(|pair| (pair.a, pair.b, pair.rects));
+    touches[..connected].sort_unstable_by_key(Pair::key);
     connected
 }
 

@@ -15,18 +15,20 @@
 //!
 //! **Finite work.** A pair that would bounce lower than [`rest::REST_HEIGHT`] of its size rests. A vertex that comes at
 //! less than [`crate::impact_time::STILL`] of the speeds involved does not come. A body that is hit more than
-//! [`MOST_AT_ONE_INSTANT`] times without time going on is jammed: that pair is treated once an iteration from then on.
+//! [`MOST_AT_ONE_INSTANT`] times without time going on, or at next to no speed, is jammed: that pair is treated once an iteration
+//! from then on.
 
+mod drive;
 mod forecast;
 mod foresight;
 mod instant;
 mod neighbours;
 mod rest;
 
-use crate::bodies::Bodies;
+use crate::bodies::{Bodies, Motion};
 use crate::broad_phase::Sweeping;
 use crate::flight::{Path, Pull};
-use crate::plan::{BroadPhasePlan, FlightPlan, Plan};
+use crate::plan::{BroadPhasePlan, Plan};
 use crate::step::Hit;
 use crate::world::World;
 use forecast::{Event, Forecast, Pair, What};
@@ -39,6 +41,9 @@ const MOST_AT_ONE_INSTANT: u32 = 500;
 /// How far, in its own size, a body of middling speed goes in a segment. Shorter segments foresee less in vain and sweep
 /// more often; measured on a gas (`cargo bench --bench gas`).
 const REACH: f64 = 0.5;
+
+/// Segments for which a mean speed is good enough: it only decides how long the next ones are.
+const FRESH_FOR: u32 = 16;
 
 /// The state of continuous motion; a stepped world has none.
 #[derive(Clone, Debug)]
@@ -67,6 +72,10 @@ pub(crate) struct Continuous {
     untold: Vec<Hit>,
     /// Of each body, when it was last hit, and how often at that instant.
     hit_at: Vec<(f64, u32)>,
+    /// The bodies that were hit in this segment.
+    was_hit: Vec<u32>,
+    /// Mean speed of the mobile bodies as it last was looked at, and segments until it is again \[m/s\].
+    speed: (f64, u32),
     phase: Phase,
     scratch: Scratch,
 }
@@ -111,6 +120,8 @@ impl Continuous {
             resting: Vec::new(),
             untold: Vec::new(),
             hit_at: vec![(f64::NEG_INFINITY, 0); count],
+            was_hit: Vec::new(),
+            speed: (0.0, 0),
             phase: Phase::Outside,
             scratch: Scratch::default(),
         }
@@ -150,7 +161,16 @@ impl Continuous {
 }
 
 /// Moves a body on by some time.
+#[inline]
 fn fly(bodies: &mut Bodies, pulls: &[Pull], body: usize, time: f64) {
+    if pulls.is_empty() {
+        let Motion { v, omega } = bodies.motion[body];
+        bodies.shift(body, v * time);
+        if omega != 0.0 {
+            bodies.turn(body, omega * time);
+        }
+        return;
+    }
     let change = Path::of(bodies, pulls, body).change(time);
     bodies.shift(body, change.shift);
     if change.turn != 0.0 {
@@ -211,37 +231,15 @@ impl World {
 }
 
 impl Continuous {
-    /// What acts on the bodies in this iteration: the scene's forces, and pushes.
-    fn set_pulls(&mut self, world: &mut World) {
-        let forces = match world.plan.flight {
-            FlightPlan::Free => None,
-            FlightPlan::Forced { gravity, drag, .. } => Some(Pull { a: gravity, alpha: 0.0, drag }),
-        };
-        self.pulls.clear();
-        if forces.is_none() && world.pushes.is_empty() {
-            return;
-        }
-        self.pulls.resize(world.bodies.len(), Pull::NONE);
-        for &body in &world.movers.mobile {
-            self.pulls[body as usize] = forces.unwrap_or(Pull::NONE);
-        }
-        for push in &world.pushes {
-            let body = push.body as usize;
-            self.pulls[body].a += push.force / world.bodies.inertia[body].mass;
-            self.pulls[body].alpha += push.torque / world.bodies.inertia[body].moment;
-        }
-        world.pushes.clear();
-        self.free.clone_from(&self.pulls);
-    }
-
     /// Foresees what will touch from here to the segment's end.
     fn begin_segment(&mut self, world: &mut World) {
         let whole = world.plan.time_step;
         let rest = whole - self.segment;
         self.length = self.horizon(world).map_or(rest, |most| if most < 0.75 * rest { most } else { rest });
         self.now = 0.0;
-        self.since.fill(0.0);
-        self.hit_at.fill((f64::NEG_INFINITY, 0));
+        for body in self.was_hit.drain(..) {
+            self.hit_at[body as usize] = (f64::NEG_INFINITY, 0);
+        }
         self.phase = Phase::Flying;
         self.forecast.clear();
         self.neighbours.forget();
@@ -258,13 +256,17 @@ impl Continuous {
     }
 
     /// How long a segment may be \[s\]; `None` where every pair is foreseen at once.
-    fn horizon(&self, world: &World) -> Option<f64> {
+    fn horizon(&mut self, world: &World) -> Option<f64> {
         let size = self.size?;
-        let speeds = world.movers.mobile.iter().map(|body| {
-            let motion = world.bodies.motion[*body as usize];
-            motion.v.abs().max() + motion.omega.abs() * size * 0.5
-        });
-        let mean = speeds.sum::<f64>() / world.movers.mobile.len().max(1) as f64;
+        if self.speed.1 == 0 {
+            let speeds = world.movers.mobile.iter().map(|body| {
+                let motion = world.bodies.motion[*body as usize];
+                motion.v.abs().max() + motion.omega.abs() * size * 0.5
+            });
+            self.speed = (speeds.sum::<f64>() / world.movers.mobile.len().max(1) as f64, FRESH_FOR);
+        }
+        self.speed.1 -= 1;
+        let mean = self.speed.0;
         (mean > 0.0).then(|| REACH * size / mean)
     }
 
@@ -278,6 +280,8 @@ impl Continuous {
                 instant.clear();
                 instant.push(pair);
                 self.gather(&first, &mut instant);
+                instant.sort_unstable_by_key(Pair::key);
+                instant.dedup_by_key(|pair| pair.key()); // a sweep may show a pair more than once
                 self.treat_instant(world, &mut instant);
                 self.scratch.instant = instant;
             }
@@ -302,9 +306,13 @@ impl Continuous {
     /// Every body flies to the segment's end.
     fn end_segment(&mut self, world: &mut World) {
         let World { bodies, movers, work, .. } = world;
+        let mut lost = None;
         for &body in movers.mobile.iter().chain(&movers.fixed) {
-            let late = self.length - self.since[body as usize];
-            fly(bodies, &self.pulls, body as usize, late);
+            let body = body as usize;
+            fly(bodies, &self.pulls, body, self.length - self.since[body]);
+            if !crate::advance::is_finite(bodies, body) {
+                lost = lost.or(Some(body));
+            }
         }
         work.bodies_advanced += (movers.mobile.len() + movers.fixed.len()) as u64;
         if !self.pulls.is_empty() {
@@ -313,9 +321,7 @@ impl Continuous {
         self.segment += self.length;
         self.since.fill(0.0);
         self.now = 0.0;
-        let lost = movers.mobile.iter().find(|body| !crate::advance::is_finite(bodies, **body as usize));
         if let Some(body) = lost {
-            let body = *body as usize;
             world.report_fault(body);
         } else if self.segment < world.plan.time_step {
             self.begin_segment(world);
@@ -328,35 +334,6 @@ impl Continuous {
             prescription.apply(&mut world.bodies, time);
         }
         world.work.prescribed += world.movers.prescribed.len() as u64;
-    }
-
-    /// Prescribed bodies stand where they are prescribed to, and their next corners are foreseen.
-    fn begin_prescribed(&mut self, world: &mut World) {
-        for at in 0..world.movers.prescribed.len() {
-            self.prescribe(world, at, 0.0);
-        }
-    }
-
-    /// A prescribed body turns: it and those near it are looked at again.
-    fn turn(&mut self, world: &mut World, at: usize) {
-        let Some(which) = world.movers.prescribed.iter().position(|p| p.body == at) else { return };
-        self.forecast.changed(at);
-        self.since[at] = self.now;
-        self.prescribe(world, which, self.now);
-        self.dirty.push(at as u32);
-    }
-
-    /// Puts a prescribed body where it stands now, moving as it will until its next turn.
-    fn prescribe(&mut self, world: &mut World, which: usize, now: f64) {
-        let start = world.advances as f64 * world.plan.time_step + self.segment;
-        let prescription = &world.movers.prescribed[which];
-        let next = prescription.next_turn(start + now);
-        prescription.apply_until(&mut world.bodies, start + now, next);
-        world.work.prescribed += 1;
-        let body = prescription.body;
-        if next - start <= self.length {
-            self.forecast.expect((next - start).max(now), 0.0, What::Turn(body as u32));
-        }
     }
 }
 

@@ -11,11 +11,11 @@ fn continuous(exchange: ExchangeRule, restitution: f64, time_step: f64) -> Setti
     Settings { motion: MotionRule::Continuous, exchange, restitution, time_step, ..Settings::default() }
 }
 
-fn impulse(restitution: f64, time_step: f64, bodies: Vec<Body>) -> Scene {
+pub(crate) fn impulse(restitution: f64, time_step: f64, bodies: Vec<Body>) -> Scene {
     Scene { settings: continuous(ExchangeRule::Impulse, restitution, time_step), bodies, ..Scene::default() }
 }
 
-fn block(name: &str, size: (f64, f64), at: (f64, f64), velocity: (f64, f64), mass: f64) -> Body {
+pub(crate) fn block(name: &str, size: (f64, f64), at: (f64, f64), velocity: (f64, f64), mass: f64) -> Body {
     let mut block = body(name, Kind::Mobile, size.0, size.1);
     block.at = at;
     block.velocity = Some(velocity);
@@ -23,7 +23,7 @@ fn block(name: &str, size: (f64, f64), at: (f64, f64), velocity: (f64, f64), mas
     block
 }
 
-fn wall(name: &str, size: (f64, f64), at: (f64, f64)) -> Body {
+pub(crate) fn wall(name: &str, size: (f64, f64), at: (f64, f64)) -> Body {
     let mut wall = body(name, Kind::Fixed, size.0, size.1);
     wall.at = at;
     wall
@@ -302,4 +302,56 @@ fn the_documents_result_does_not_depend_on_the_time_step() {
     for end in &ends[1..] {
         assert_close(&[end.0, end.1], &[ends[0].0, ends[0].1], 1e-12, "the car");
     }
+}
+
+#[test]
+fn e9_the_rotating_billiard_keeps_its_digits_in_a_world() {
+    let walls =
+        [((1.0, 9.0), (2.5, 0.0)), ((1.0, 9.0), (-2.5, 0.0)), ((9.0, 1.0), (0.0, 2.0)), ((9.0, 1.0), (0.0, -2.0))];
+    let mut bodies: Vec<Body> =
+        walls.iter().enumerate().map(|(i, (size, at))| wall(&format!("wall{i}"), *size, *at)).collect();
+    let mut billiard = block("box", (1.0, 0.5), (0.0, 0.0), (1.0, 0.7), 1.0);
+    billiard.spin = Some(1.3);
+    bodies.push(billiard);
+    let reference: Vec<Vec<f64>> = include_str!("references/rect_billiard.csv")
+        .lines()
+        .skip(1)
+        .map(|line| line.split(',').map(|number| number.parse().unwrap_or(f64::NAN)).collect())
+        .collect();
+    for time_step in [1.0 / 60.0, 0.5, 20.0] {
+        let mut world = World::new(&impulse(1.0, time_step, bodies.clone())).expect("a valid scene");
+        let id = world.find("box").expect("it is there");
+        let (mut event, mut worst) = (0, 0.0_f64);
+        while event < 10 {
+            world.begin();
+            while world.treat_next().is_some() {
+                let row = &reference[event.min(23)];
+                let (p, v) = (world.position(id), world.velocity(id));
+                let found = [world.time(), p.x, p.y, v.x, v.y, world.spin(id)];
+                let error = [1, 4, 5, 7, 8, 9].iter().zip(found).map(|(c, f)| (f - row[*c]).abs()).fold(0.0, f64::max);
+                event += 1;
+                if event <= 10 {
+                    worst = worst.max(error);
+                }
+            }
+            world.finish();
+        }
+        println!("E9 at {time_step}: {worst:e} within ten events");
+        assert!(worst <= 1e-9, "{worst:e}");
+    }
+}
+
+#[test]
+fn c7_c8_extreme_masses_and_plastic_pairs() {
+    let pair = |masses: (f64, f64), e: f64, v: (f64, f64)| {
+        let bodies = vec![
+            block("one", (1.0, 1.0), (-2.0, 0.0), (v.0, 0.0), masses.0),
+            block("two", (1.0, 1.0), (2.0, 0.0), (v.1, 0.0), masses.1),
+        ];
+        velocities(&run(&impulse(e, 0.5, bodies), 16).0)
+    };
+    assert_close(&pair((1e8, 1.0), 1.0, (1.0, 0.0)), &[0.999_999_980_000_000_2, 1.999_999_980_000_000_0], 3e-16, "C7");
+    assert_close(&pair((1e12, 1.0), 1.0, (1.0, 0.0)), &[1.0 - 2e-12, 2.0 - 2e-12], 4e-16, "a ratio of 1e12");
+    let common = (2.0 * 3.0 - 5.0 * 1.0) / 7.0;
+    assert_close(&pair((2.0, 5.0), 0.0, (3.0, -1.0)), &[common, common], 4e-16, "C8");
 }

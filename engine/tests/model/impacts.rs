@@ -69,6 +69,33 @@ fn c2_parallel_faces_meet_at_two_points_at_once() {
     }
 }
 
+#[test]
+fn c6_a_turning_blade_strikes_with_its_own_speed_at_the_contact() {
+    // Ω = 2 at radius 3 against a block of 1 kg, 1/2 × 1/2, at rest, struck d beside its centre.
+    let cases = [
+        (1.0, 0.0, 12.0, 0.0),
+        (1.0, 0.1, 300.0 / 31.0, 720.0 / 31.0),
+        (1.0, 0.25, 24.0 / 5.0, 144.0 / 5.0),
+        (0.5, 0.0, 9.0, 0.0),
+        (0.5, 0.1, 225.0 / 31.0, 540.0 / 31.0),
+        (0.5, 0.25, 18.0 / 5.0, 108.0 / 5.0),
+    ];
+    for (e, d, v, w) in cases {
+        let blade = Motion { v: Vec2::zeros(), omega: 2.0 };
+        let block = Inertia { mass: 1.0, moment: 1.0 / 24.0 };
+        let mut bodies = columns([(Role::FixedWithPhysics, block, blade), (Role::Mobile, block, Motion::default())]);
+        assert!(exchange(&mut bodies, (0, 1), Vec2::new(0.0, 1.0), &[arms((3.0, 0.0), (d, -0.25))], elastic(e)));
+        let after = bodies.motion[1];
+        assert!((after.v.y - v).abs() < 1e-14 && (after.omega - w).abs() < 2e-14, "e = {e}, d = {d}: {after:?}");
+        assert_eq!(bodies.motion[0], blade, "a fixed body is not moved");
+    }
+    // A free rotor of 10 kg·m² instead: 2/19 is left of its turning.
+    let rotor = (Role::Mobile, Inertia { mass: 1e300, moment: 10.0 }, Motion { v: Vec2::zeros(), omega: 2.0 });
+    let mut bodies = columns([rotor, (Role::Mobile, Inertia { mass: 1.0, moment: 1.0 / 24.0 }, Motion::default())]);
+    exchange(&mut bodies, (0, 1), Vec2::new(0.0, 1.0), &[arms((3.0, 0.0), (0.0, -0.25))], elastic(1.0));
+    assert!((bodies.motion[0].omega - 2.0 / 19.0).abs() < 2e-15 && (bodies.motion[1].v.y - 120.0 / 19.0).abs() < 2e-15);
+}
+
 /// r = (−3/5, −4/5) from the centre of a body of 1 kg with R = 1, striking a floor.
 const VERTEX: Impact = Impact { k_tt: 73.0 / 25.0, k_tn: -36.0 / 25.0, k_nn: 52.0 / 25.0 };
 

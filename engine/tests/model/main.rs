@@ -2,6 +2,7 @@
 
 mod collisions;
 mod continuous;
+mod crowds;
 mod impacts;
 mod laws;
 mod needs;
