@@ -41,6 +41,7 @@ impl Continuous {
     pub(super) fn turn(&mut self, world: &mut World, at: usize) {
         let Some(which) = world.movers.prescribed.iter().position(|p| p.body == at) else { return };
         self.forecast.changed(at);
+        self.bring(&mut world.bodies, at);
         self.since[at] = self.now;
         self.prescribe(world, which, self.now);
         self.dirty.push(at as u32);

@@ -42,6 +42,9 @@ const MOST_AT_ONE_INSTANT: u32 = 500;
 /// more often; measured on a gas (`cargo bench --bench gas`).
 const REACH: f64 = 0.5;
 
+/// Segments of an iteration at most: one body of absurd speed must not chop the time of all.
+const MOST_SEGMENTS: f64 = 256.0;
+
 /// Segments for which a mean speed is good enough: it only decides how long the next ones are.
 const FRESH_FOR: u32 = 16;
 
@@ -267,7 +270,7 @@ impl Continuous {
         }
         self.speed.1 -= 1;
         let mean = self.speed.0;
-        (mean > 0.0).then(|| REACH * size / mean)
+        (mean > 0.0).then(|| (REACH * size / mean).max(world.plan.time_step / MOST_SEGMENTS))
     }
 
     /// Takes what happens at the earliest instant of the segment; `false` when nothing more happens in it.
