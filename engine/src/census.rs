@@ -45,6 +45,11 @@ impl Census {
         census
     }
 
+    /// Pairs of bodies that could collide.
+    pub(crate) fn pairs(&self) -> usize {
+        self.mobile * self.mobile.saturating_sub(1) / 2 + self.mobile * (self.fixed + self.fixed_with_physics)
+    }
+
     /// The document's cases of exchange that can happen.
     pub(crate) fn exchange_cases(&self) -> Vec<&'static str> {
         [

@@ -21,7 +21,7 @@ pub struct Plan {
     /// How overlaps are found.
     pub detection: Detection,
     /// When collisions are treated.
-    pub motion: MotionRule,
+    pub motion: MotionPlan,
     /// How motion is handed over.
     pub exchange: ExchangePlan,
     /// How bodies fly between collisions.
@@ -47,6 +47,19 @@ pub enum ExchangePlan {
     },
     /// Newton–Euler impulses; nothing is relocated. Each body has its own restitution and friction.
     Impulse,
+}
+
+/// When collisions are treated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum MotionPlan {
+    /// After each step, where bodies overlap.
+    Stepped,
+    /// At the moment of impact.
+    Continuous {
+        /// Size of a middling body \[m\], where a scene has so many pairs that iterations are cut to segments in which a
+        /// body moves about half of it; `None` where all pairs are foreseen at once.
+        middling: Option<f64>,
+    },
 }
 
 /// How mobile bodies fly between collisions.
@@ -102,7 +115,7 @@ impl Plan {
                 ExchangeRule::Document => Detection::Vertices,
                 ExchangeRule::Impulse => Detection::Complete,
             }),
-            motion: settings.motion,
+            motion: MotionPlan::resolve(scene, &census),
             exchange: match settings.exchange {
                 ExchangeRule::Document => ExchangePlan::Document {
                     epsilon: settings.epsilon,
@@ -148,10 +161,23 @@ impl FlightPlan {
     }
 }
 
+impl MotionPlan {
+    /// Whether iterations are cut depends on the pairs alone, never on how they are found: so that the way of finding
+    /// them changes no bit.
+    fn resolve(scene: &Scene, census: &Census) -> Self {
+        match scene.settings.motion {
+            MotionRule::Stepped => MotionPlan::Stepped,
+            MotionRule::Continuous => {
+                let many = census.pairs() > ALL_PAIRS_UP_TO;
+                MotionPlan::Continuous { middling: many.then(|| load::strip_depth(scene)) }
+            }
+        }
+    }
+}
+
 impl BroadPhasePlan {
     fn resolve(scene: &Scene, census: &Census) -> Self {
-        let Census { mobile, fixed, fixed_with_physics, .. } = *census;
-        let pairs = mobile * mobile.saturating_sub(1) / 2 + mobile * (fixed + fixed_with_physics);
+        let pairs = census.pairs();
         match scene.settings.broad_phase {
             _ if pairs == 0 => BroadPhasePlan::Nothing,
             BroadPhaseChoice::AllPairs => BroadPhasePlan::AllPairs,
@@ -188,12 +214,12 @@ impl Plan {
         }
         if self.broad_phase != BroadPhasePlan::Nothing {
             lines.push(match (self.motion, self.detection) {
-                (MotionRule::Stepped, Detection::Vertices) => "detect: vertex in rectangle (§2.3)".to_owned(),
-                (MotionRule::Stepped, Detection::Complete) => "detect: separating axes".to_owned(),
-                (MotionRule::Continuous, Detection::Vertices) => {
+                (MotionPlan::Stepped, Detection::Vertices) => "detect: vertex in rectangle (§2.3)".to_owned(),
+                (MotionPlan::Stepped, Detection::Complete) => "detect: separating axes".to_owned(),
+                (MotionPlan::Continuous { .. }, Detection::Vertices) => {
                     "detect: the moment of impact, at its first vertex (§2.3)".to_owned()
                 }
-                (MotionRule::Continuous, Detection::Complete) => {
+                (MotionPlan::Continuous { .. }, Detection::Complete) => {
                     "detect: the moment of impact, at its one or two points".to_owned()
                 }
             });
@@ -211,8 +237,8 @@ impl Plan {
                 let cases = self.census.exchange_cases().join(", ");
                 vec![
                     match self.motion {
-                        MotionRule::Stepped => format!("relocate: least distance + ε = {epsilon} m (§2.4)"),
-                        MotionRule::Continuous => format!("relocate: ε = {epsilon} m, at the moment of impact"),
+                        MotionPlan::Stepped => format!("relocate: least distance + ε = {epsilon} m (§2.4)"),
+                        MotionPlan::Continuous { .. } => format!("relocate: ε = {epsilon} m, at the moment of impact"),
                     },
                     format!("exchange: document, μ_L = {mu_l}, μ_A = {mu_a}: {cases}"),
                 ]

@@ -11,9 +11,9 @@ use crate::detect::overlap;
 use crate::directory::Directory;
 use crate::error::{Fault, SceneError};
 use crate::load;
-use crate::plan::Plan;
+use crate::plan::{MotionPlan, Plan};
 use crate::push::Push;
-use crate::scene::{Kind, MotionRule, Scene};
+use crate::scene::{Kind, Scene};
 use crate::work::Work;
 
 /// A body of a world: its index in order of creation.
@@ -62,7 +62,10 @@ impl World {
         for prescription in &movers.prescribed {
             prescription.apply(&mut bodies, 0.0);
         }
-        let continuous = (plan.motion == MotionRule::Continuous).then(|| Box::new(Continuous::new(&plan, &bodies)));
+        let continuous = match plan.motion {
+            MotionPlan::Stepped => None,
+            MotionPlan::Continuous { middling } => Some(Box::new(Continuous::new(middling, bodies.len()))),
+        };
         Ok(World {
             continuous,
             broad_phase: BroadPhase::new(plan.broad_phase),

@@ -49,7 +49,7 @@ impl Continuous {
 
     /// Puts a prescribed body where it stands now, moving as it will until its next turn.
     pub(super) fn prescribe(&mut self, world: &mut World, which: usize, now: f64) {
-        let start = world.advances as f64 * world.plan.time_step + self.segment;
+        let start = world.advances as f64 * world.plan.time_step + self.segment_start();
         let prescription = &world.movers.prescribed[which];
         let next = prescription.next_turn(start + now);
         prescription.apply_until(&mut world.bodies, start + now, next);

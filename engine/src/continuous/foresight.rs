@@ -88,7 +88,7 @@ impl Continuous {
             return;
         }
         let mobile = bodies.role[body] == Role::Mobile;
-        if self.size.is_none() {
+        if self.middling.is_none() {
             for other in 0..bodies.len() {
                 let can = other != body && (mobile || bodies.is_mobile(other)) && !bodies.rects_of(other).is_empty();
                 if can && done.binary_search(&(other as u32)).is_err() {

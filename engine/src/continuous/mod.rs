@@ -10,8 +10,9 @@
 //! | the segment ends: every body flies to its end | [`Continuous::end_segment`] |
 //! | pairs that overlap for good are treated as stepped motion does | [`World::treat_stuck`] |
 //!
-//! A segment is an iteration, or a part of one so short that a body of middling speed moves about half its own size: then
-//! it meets few others and what is foreseen is seldom in vain.
+//! A segment is an iteration, or where there are many bodies one of 2ᵏ equal parts of it, so short that a body of middling
+//! speed moves about half its own size: then it meets few others and what is foreseen is seldom in vain. How an iteration
+//! is cut depends on speeds and sizes alone, neither on the order of creation nor on how pairs are found.
 //!
 //! **Finite work.** A pair that would bounce lower than [`rest::REST_HEIGHT`] of its size rests. A vertex that comes at
 //! less than [`crate::impact_time::STILL`] of the speeds involved does not come. A body that is hit more than
@@ -28,7 +29,6 @@ mod rest;
 use crate::bodies::{Bodies, Motion};
 use crate::broad_phase::Sweeping;
 use crate::flight::{Path, Pull};
-use crate::plan::{BroadPhasePlan, Plan};
 use crate::step::Hit;
 use crate::world::World;
 use forecast::{Event, Forecast, Pair, What};
@@ -42,11 +42,8 @@ const MOST_AT_ONE_INSTANT: u32 = 500;
 /// more often; measured on a gas (`cargo bench --bench gas`).
 const REACH: f64 = 0.5;
 
-/// Segments of an iteration at most: one body of absurd speed must not chop the time of all.
-const MOST_SEGMENTS: f64 = 256.0;
-
-/// Segments for which a mean speed is good enough: it only decides how long the next ones are.
-const FRESH_FOR: u32 = 16;
+/// Segments of an iteration at most: beyond this, memory for what is foreseen is the cheaper of the two.
+const MOST_SEGMENTS: u32 = 4096;
 
 /// The state of continuous motion; a stepped world has none.
 #[derive(Clone, Debug)]
@@ -57,14 +54,15 @@ pub(crate) struct Continuous {
     free: Vec<Pull>,
     /// The time to which each body has flown, from the segment's start \[s\].
     since: Vec<f64>,
-    /// The present: from the iteration's start to the segment's, and from there \[s\].
-    segment: f64,
-    now: f64,
+    /// Which segment of the iteration it is, of how many.
+    segment: (u32, u32),
+    /// How long a segment is, and the present from its start \[s\].
     length: f64,
+    now: f64,
     forecast: Forecast,
     neighbours: Neighbours,
     /// Size of a middling body \[m\]; `None` where every pair is foreseen at once.
-    size: Option<f64>,
+    middling: Option<f64>,
     /// Bodies whose future is to be foreseen again.
     dirty: Vec<u32>,
     /// Pairs treated once an iteration, in order.
@@ -77,8 +75,6 @@ pub(crate) struct Continuous {
     hit_at: Vec<(f64, u32)>,
     /// The bodies that were hit in this segment.
     was_hit: Vec<u32>,
-    /// Mean speed of the mobile bodies as it last was looked at, and segments until it is again \[m/s\].
-    speed: (f64, u32),
     phase: Phase,
     scratch: Scratch,
 }
@@ -88,6 +84,7 @@ pub(crate) struct Continuous {
 struct Scratch {
     found: Vec<u32>,
     instant: Vec<Pair>,
+    speeds: Vec<f64>,
 }
 
 /// Where in an iteration the world is.
@@ -102,29 +99,24 @@ enum Phase {
 }
 
 impl Continuous {
-    pub(crate) fn new(plan: &Plan, bodies: &Bodies) -> Self {
-        let count = bodies.len();
-        let size = match plan.broad_phase {
-            BroadPhasePlan::Strips { depth } => Some(depth),
-            BroadPhasePlan::Nothing | BroadPhasePlan::AllPairs => None,
-        };
+    /// Of a world of so many bodies, of such a size in the middle.
+    pub(crate) fn new(middling: Option<f64>, count: usize) -> Self {
         Continuous {
             pulls: Vec::new(),
             free: Vec::new(),
             since: vec![0.0; count],
-            segment: 0.0,
-            now: 0.0,
+            segment: (0, 1),
             length: 0.0,
+            now: 0.0,
             forecast: Forecast::new(count),
-            neighbours: Neighbours::new(size.unwrap_or(1.0), count),
-            size,
+            neighbours: Neighbours::new(middling.unwrap_or(1.0), count),
+            middling,
             dirty: Vec::new(),
             stuck: Vec::new(),
             resting: Vec::new(),
             untold: Vec::new(),
             hit_at: vec![(f64::NEG_INFINITY, 0); count],
             was_hit: Vec::new(),
-            speed: (0.0, 0),
             phase: Phase::Outside,
             scratch: Scratch::default(),
         }
@@ -132,7 +124,12 @@ impl Continuous {
 
     /// Time since the iteration began, while it is under way \[s\].
     pub(crate) fn elapsed(&self) -> f64 {
-        if self.phase == Phase::Flying { self.segment + self.now } else { 0.0 }
+        if self.phase == Phase::Flying { self.segment_start() + self.now } else { 0.0 }
+    }
+
+    /// When the segment began, from the iteration's start \[s\].
+    fn segment_start(&self) -> f64 {
+        f64::from(self.segment.0) * self.length
     }
 
     /// Pairs whose state decides how the world goes on.
@@ -186,9 +183,10 @@ fn fly(bodies: &mut Bodies, pulls: &[Pull], body: usize, time: f64) {
 impl World {
     /// The first half: what acts in this iteration, and what will touch.
     pub(crate) fn begin_continuous(&mut self, state: &mut Continuous) {
-        state.segment = 0.0;
         state.untold.clear();
         state.set_pulls(self);
+        state.segment = (0, state.segments(self));
+        state.length = self.plan.time_step / f64::from(state.segment.1);
         state.begin_segment(self);
     }
 
@@ -236,9 +234,6 @@ impl World {
 impl Continuous {
     /// Foresees what will touch from here to the segment's end.
     fn begin_segment(&mut self, world: &mut World) {
-        let whole = world.plan.time_step;
-        let rest = whole - self.segment;
-        self.length = self.horizon(world).map_or(rest, |most| if most < 0.75 * rest { most } else { rest });
         self.now = 0.0;
         for body in self.was_hit.drain(..) {
             self.hit_at[body as usize] = (f64::NEG_INFINITY, 0);
@@ -258,19 +253,23 @@ impl Continuous {
         self.dirty.clear();
     }
 
-    /// How long a segment may be \[s\]; `None` where every pair is foreseen at once.
-    fn horizon(&mut self, world: &World) -> Option<f64> {
-        let size = self.size?;
-        if self.speed.1 == 0 {
-            let speeds = world.movers.mobile.iter().map(|body| {
-                let motion = world.bodies.motion[*body as usize];
-                motion.v.abs().max() + motion.omega.abs() * size * 0.5
-            });
-            self.speed = (speeds.sum::<f64>() / world.movers.mobile.len().max(1) as f64, FRESH_FOR);
+    /// How many segments this iteration is cut into.
+    fn segments(&mut self, world: &World) -> u32 {
+        let Some(size) = self.middling else { return 1 };
+        let speeds = &mut self.scratch.speeds;
+        speeds.clear();
+        speeds.extend(world.movers.mobile.iter().map(|body| {
+            let motion = world.bodies.motion[*body as usize];
+            motion.v.abs().max() + motion.omega.abs() * size * 0.5
+        }));
+        let middle = speeds.len() / 2;
+        let (_, speed, _) = speeds.select_nth_unstable_by(middle, f64::total_cmp);
+        let wanted = *speed * world.plan.time_step / (REACH * size);
+        let mut segments = 1;
+        while f64::from(segments) < wanted && segments < MOST_SEGMENTS {
+            segments *= 2;
         }
-        self.speed.1 -= 1;
-        let mean = self.speed.0;
-        (mean > 0.0).then(|| (REACH * size / mean).max(world.plan.time_step / MOST_SEGMENTS))
+        segments
     }
 
     /// Takes what happens at the earliest instant of the segment; `false` when nothing more happens in it.
@@ -321,12 +320,12 @@ impl Continuous {
         if !self.pulls.is_empty() {
             work.bodies_forced += movers.mobile.len() as u64;
         }
-        self.segment += self.length;
+        self.segment.0 += 1;
         self.since.fill(0.0);
         self.now = 0.0;
         if let Some(body) = lost {
             world.report_fault(body);
-        } else if self.segment < world.plan.time_step {
+        } else if self.segment.0 < self.segment.1 {
             self.begin_segment(world);
             return;
         }
