@@ -2,7 +2,9 @@
 
 use crate::area::Vec2;
 use crate::bodies::{Bodies, Motion, Role};
+use crate::flight::turned;
 use crate::forces::Flight;
+use crate::frame::Frame;
 use crate::plan::FlightPlan;
 use crate::prescribed::Prescription;
 use crate::work::Work;
@@ -111,6 +113,22 @@ fn fly(bodies: &mut Bodies, movers: &[u32], gravity: Vec2, linear: Flight, angul
         }
     }
     lost
+}
+
+/// Where a body stood before the step that gave it the motion it has: exact for uniform flight and under gravity and
+/// drag; pushes and the corners of a course are left aside. A motion that came out of nothing (drag took all) gives no place.
+#[must_use]
+pub fn frame_before(bodies: &Bodies, flight: FlightPlan, dt: f64, body: usize) -> Frame {
+    let (frame, Motion { v, omega }) = (bodies.frame[body], bodies.motion[body]);
+    let (shift, turn) = match flight {
+        FlightPlan::Forced { gravity, linear, angular, .. } if bodies.is_mobile(body) => {
+            let v_before = (v - gravity * linear.reach) / linear.keep;
+            (v_before * linear.reach + gravity * linear.fall, omega / angular.keep * angular.reach)
+        }
+        FlightPlan::Free | FlightPlan::Forced { .. } => (v * dt, omega * dt),
+    };
+    let before = turned(&frame, frame.o - shift, -turn);
+    if before.o.x.is_finite() & before.o.y.is_finite() & before.cos.is_finite() { before } else { frame }
 }
 
 /// Whether place and angle are still numbers; motion that is not shows up in them a step later at most.

@@ -1,6 +1,7 @@
 //! The bodies of a running world: one array per quantity, index = order of creation.
 
 use crate::area::{Rect, Vec2};
+use crate::detect::seams::Seams;
 use crate::exchange::impact::Surface;
 use crate::frame::{Angle, Frame, add_kept};
 use crate::trig::sin_cos;
@@ -55,6 +56,8 @@ pub struct Bodies {
     pub rects: Vec<Rect>,
     /// Where each body's rectangles begin in `rects`; one more entry closes the last.
     pub first_rect: Vec<u32>,
+    /// Faces inside what rectangles make up together; only the complete detection has them.
+    pub seams: Seams,
 }
 
 impl Bodies {

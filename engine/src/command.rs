@@ -17,6 +17,7 @@ impl World {
         self.finite(id, "x", position.x)?;
         self.finite(id, "z", position.y)?;
         self.interrupt(id.index());
+        self.part_seams(id);
         self.bodies.place(id.index(), position - self.plan.origin);
         Ok(())
     }
@@ -28,6 +29,7 @@ impl World {
     pub fn set_angle(&mut self, id: BodyId, angle: f64) -> Result<(), CommandError> {
         self.finite(id, "angle", angle)?;
         self.interrupt(id.index());
+        self.part_seams(id);
         self.bodies.set_angle(id.index(), angle);
         Ok(())
     }
@@ -100,9 +102,19 @@ impl World {
         check::finite(what, value).map(|_| ()).map_err(named)
     }
 
+    /// A fixed body that is moved is no longer one with those it adjoined.
+    fn part_seams(&mut self, id: BodyId) {
+        let mut seams = core::mem::take(&mut self.bodies.seams);
+        if !self.bodies.is_mobile(id.index()) {
+            seams.part(&self.bodies, id.index());
+        }
+        self.bodies.seams = seams;
+    }
+
     fn give_physics(&mut self, id: BodyId) {
         if self.bodies.role[id.index()] == Role::Fixed {
             self.bodies.role[id.index()] = Role::FixedWithPhysics;
+            self.part_seams(id);
             if self.is_collidable(id) {
                 self.plan.census.fixed -= 1;
                 self.plan.census.fixed_with_physics += 1;

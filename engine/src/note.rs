@@ -9,7 +9,7 @@ use crate::check::shown;
 use crate::detect::{self, overlap};
 use crate::load;
 use crate::plan::ExchangePlan;
-use crate::scene::{Body, Kind, MotionRule, Scene};
+use crate::scene::{Body, Detection, Kind, MotionRule, Scene};
 use crate::work::Work;
 use crate::world::{BodyId, World};
 
@@ -122,7 +122,10 @@ fn starts_overlapped(world: &World) -> Vec<Note> {
     BroadPhase::new(world.plan.broad_phase).visit(&world.bodies, &mut Work::default(), |i, j, _| {
         let is_early = first.len() < NAMED || first.last_key_value().is_some_and(|(last, _)| (i, j) <= *last);
         let depth = if is_early || !more { overlap::between(&world.bodies, i, j) } else { 0.0 };
-        if depth > 0.0 && first.insert((i, j), depth).is_none() && first.len() > NAMED {
+        if depth > touching(world, i).min(touching(world, j))
+            && first.insert((i, j), depth).is_none()
+            && first.len() > NAMED
+        {
             first.pop_last();
             more = true;
         }
@@ -134,9 +137,18 @@ fn starts_overlapped(world: &World) -> Vec<Note> {
     notes
 }
 
+/// Less than this is a touch that rounding has made an overlap \[m\].
+fn touching(world: &World, body: usize) -> f64 {
+    let smallest = world.bodies.rects_of(body).iter().map(|rect| rect.half().min()).fold(f64::INFINITY, f64::min);
+    1e-9 * smallest
+}
+
 fn overlap_note(world: &World, i: usize, j: usize, depth: f64) -> Note {
     let name = |i: usize| world.name(BodyId(i as u32));
-    let is_seen = detect::collides(world.plan.detection, &world.bodies, i, j, &mut Work::default());
+    let is_seen = match world.plan.detection {
+        Detection::Vertices => detect::vertices::find(&world.bodies, i, j, &mut Work::default()).is_some(),
+        Detection::Complete => true,
+    };
     let outcome = match (is_seen, world.plan.exchange) {
         (false, _) => "no vertex of one lies in the other, so detection(\"vertices\") does not see it",
         (true, ExchangePlan::Document { .. }) => "the first iteration will begin to part them",

@@ -4,11 +4,11 @@
 //! |---|---|---|
 //! | advance | [`advance`] | §2.1 |
 //! | broad phase | [`BroadPhase::visit`](crate::broad_phase::BroadPhase::visit) | §2.3 |
-//! | detect | [`detect::collides`] | §2.3 |
+//! | detect | [`detect::vertices`], or [`detect::complete`] | §2.3 |
 //! | relocate | [`relocate::separate`] | §2.4 |
 //! | exchange | [`document::exchange`], or [`impulse::act`] | §2.5 |
 
-use crate::advance::{advance, is_finite};
+use crate::advance::{advance, frame_before, is_finite};
 use crate::area::Vec2;
 use crate::bodies::Motion;
 use crate::check::shown;
@@ -20,6 +20,7 @@ use crate::forces::Flight;
 use crate::plan::{ExchangePlan, FlightPlan};
 use crate::push::apply_pushes;
 use crate::relocate;
+use crate::scene::Detection;
 use crate::world::{BodyId, World};
 
 /// One exchange, as it is told to whoever watches.
@@ -121,12 +122,25 @@ impl World {
         if self.fault.is_some() {
             return;
         }
-        let World { plan, broad_phase, bodies, listed, work, .. } = self;
-        broad_phase.visit(bodies, work, |i, j, work| {
-            if detect::collides(plan.detection, bodies, i, j, work) {
-                listed.push((i as u32, j as u32));
+        let World { plan, broad_phase, bodies, sides, listed, work, .. } = self;
+        let mut list = |i, j| listed.push((i as u32, j as u32));
+        match plan.detection {
+            Detection::Vertices => broad_phase.visit(bodies, work, |i, j, work| {
+                if detect::vertices::find(bodies, i, j, work).is_some() {
+                    list(i, j);
+                }
+            }),
+            Detection::Complete => {
+                sides.begin();
+                let earlier = |body| frame_before(bodies, plan.flight, plan.time_step, body);
+                broad_phase.visit(bodies, work, |i, j, work| {
+                    if detect::complete::list(bodies, (i, j), sides, earlier, work) {
+                        list(i, j);
+                    }
+                });
+                sides.listed();
             }
-        });
+        }
         listed.sort_unstable();
         listed.dedup();
         work.pairs_listed += listed.len() as u64;
@@ -151,8 +165,8 @@ impl World {
 
     /// The document's way (§2.4, §2.5).
     fn relocate_and_exchange(&mut self, a: BodyId, b: BodyId, epsilon: f64, losses: Losses) -> Option<Exchanged> {
-        let World { plan, bodies, work, .. } = self;
-        let contact = detect::contact(plan.detection, bodies, a.index(), b.index(), work)?;
+        let World { plan, bodies, sides, work, .. } = self;
+        let contact = detect::contact(plan.detection, bodies, (a.index(), b.index()), sides, work)?;
         let placed = relocate::separate(bodies, &contact, epsilon);
         work.relocations += 1;
         let kind = document::exchange(bodies, &placed, losses)?;
@@ -161,8 +175,8 @@ impl World {
 
     /// Newton and Euler's way: impulses at the points that approach; nothing is moved.
     fn exchange_impulses(&mut self, a: BodyId, b: BodyId) -> Option<Exchanged> {
-        let World { plan, bodies, work, .. } = self;
-        let manifold = detect::manifold(plan.detection, bodies, a.index(), b.index(), work)?;
+        let World { plan, bodies, sides, work, .. } = self;
+        let manifold = detect::manifold(plan.detection, bodies, (a.index(), b.index()), sides, work)?;
         let (normal, point) = impulse::act(bodies, &manifold)?;
         let kind = PairKind::of(bodies.role[a.index()], bodies.role[b.index()]);
         Some(Exchanged { point, normal, depth: manifold.depth, kind })

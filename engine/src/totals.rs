@@ -60,6 +60,9 @@ impl World {
         for (a, b) in self.continuous.iter().flat_map(|state| state.lasting()) {
             digest.word(u64::from(*a) << 32 | u64::from(*b));
         }
+        for word in self.sides.words() {
+            digest.word(word);
+        }
         digest.0
     }
 }

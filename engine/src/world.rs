@@ -8,12 +8,14 @@ use crate::bodies::{Bodies, Motion};
 use crate::broad_phase::BroadPhase;
 use crate::continuous::Continuous;
 use crate::detect::overlap;
+use crate::detect::seams::Seams;
+use crate::detect::sides::Sides;
 use crate::directory::Directory;
 use crate::error::{Fault, SceneError};
 use crate::load;
 use crate::plan::{MotionPlan, Plan};
 use crate::push::Push;
-use crate::scene::{Kind, Scene};
+use crate::scene::{Detection, Kind, Scene};
 use crate::work::Work;
 
 /// A body of a world: its index in order of creation.
@@ -36,6 +38,8 @@ pub struct World {
     pub(crate) movers: Movers,
     pub(crate) broad_phase: BroadPhase,
     pub(crate) pushes: Vec<Push>,
+    /// From which side overlaps came about.
+    pub(crate) sides: Sides,
     /// Pairs listed as overlapping in this iteration, in order, and how many of them have been treated.
     pub(crate) listed: Vec<(u32, u32)>,
     pub(crate) treated: usize,
@@ -62,6 +66,9 @@ impl World {
         for prescription in &movers.prescribed {
             prescription.apply(&mut bodies, 0.0);
         }
+        if plan.detection == Detection::Complete {
+            bodies.seams = Seams::of(&bodies);
+        }
         let continuous = match plan.motion {
             MotionPlan::Stepped => None,
             MotionPlan::Continuous { middling } => Some(Box::new(Continuous::new(middling, bodies.len()))),
@@ -73,6 +80,7 @@ impl World {
             bodies,
             movers,
             pushes: Vec::new(),
+            sides: Sides::default(),
             listed: Vec::with_capacity(scene.bodies.len() / 2 + 16),
             treated: 0,
             iteration: 0,

@@ -8,12 +8,12 @@ use super::forecast::Pair;
 use super::{Continuous, MOST_AT_ONE_INSTANT, rest};
 use crate::area::Rect;
 use crate::bodies::{Bodies, Motion};
-use crate::detect::complete::Manifold;
+use crate::detect::manifold::{Manifold, Placed};
 use crate::detect::{Contact, touch};
 use crate::exchange::document::{self, Losses};
 use crate::exchange::{PairKind, impulse, together};
 use crate::plan::ExchangePlan;
-use crate::relocate::{Placed, separate};
+use crate::relocate::{self, separate};
 use crate::scene::Detection;
 use crate::step::Hit;
 use crate::world::{BodyId, World};
@@ -153,7 +153,7 @@ impl Continuous {
         self.note(world, pair, middle, normal, kind);
     }
 
-    fn tell(&mut self, world: &mut World, pair: &Pair, placed: &Placed, kind: PairKind) {
+    fn tell(&mut self, world: &mut World, pair: &Pair, placed: &relocate::Placed, kind: PairKind) {
         self.note(world, pair, placed.point, placed.normal, kind);
     }
 
@@ -273,10 +273,8 @@ fn contact_of(bodies: &Bodies, pair: &Pair, detection: Detection) -> Contact {
 }
 
 fn whole(bodies: &Bodies, pair: &Pair) -> Manifold {
-    let (rect_a, rect_b) = (rect(bodies, pair.a, pair.rects.0), rect(bodies, pair.b, pair.rects.1));
-    let (a, b) = (pair.a as usize, pair.b as usize);
-    let one = (a, &bodies.frame[a], &rect_a);
-    let two = (b, &bodies.frame[b], &rect_b);
+    let one = Placed::of(bodies, pair.a as usize, pair.rects.0 as usize);
+    let two = Placed::of(bodies, pair.b as usize, pair.rects.1 as usize);
     let (reference, owner) = if pair.touch.face_of_first { (one, two) } else { (two, one) };
     touch::at_face(reference, owner, pair.touch.face)
 }
@@ -287,7 +285,7 @@ fn first_vertex(bodies: &Bodies, pair: &Pair) -> Contact {
 }
 
 /// Whether the two go on approaching at the point of an exchange, beyond rounding.
-fn approaches(bodies: &Bodies, placed: &Placed) -> bool {
+fn approaches(bodies: &Bodies, placed: &relocate::Placed) -> bool {
     let of = |body: usize, r| bodies.motion[body].v + crate::frame::perp(r) * bodies.motion[body].omega;
     let (owner, reference) = (of(placed.owner, placed.r_owner), of(placed.reference, placed.r_reference));
     (owner - reference).dot(&placed.normal) < -crate::impact_time::STILL * (owner.norm() + reference.norm())

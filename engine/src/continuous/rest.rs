@@ -9,7 +9,7 @@ use super::Continuous;
 use super::forecast::Pair;
 use crate::area::Vec2;
 use crate::bodies::{Bodies, Motion};
-use crate::detect::complete::Manifold;
+use crate::detect::manifold::{Manifold, Placed};
 use crate::detect::{overlap, touch};
 use crate::exchange::impact::Surface;
 use crate::exchange::impulse::{self, Arms};
@@ -131,11 +131,10 @@ fn held(state: &Continuous, bodies: &mut Bodies, contacts: &[together::Point], f
 fn resting_manifold(bodies: &Bodies, a: usize, b: usize) -> Option<Manifold> {
     let size = smallest(bodies, a).min(smallest(bodies, b));
     let mut nearest: Option<(f64, Manifold)> = None;
-    for rect_a in bodies.rects_of(a) {
-        for rect_b in bodies.rects_of(b) {
-            let depth = overlap::depth(&bodies.frame[a], rect_a, &bodies.frame[b], rect_b);
+    for one in Placed::all(bodies, a) {
+        for two in Placed::all(bodies, b) {
+            let depth = overlap::depth(one.frame, one.rect, two.frame, two.rect);
             if nearest.as_ref().is_none_or(|(best, _)| depth > *best) {
-                let (one, two) = ((a, &bodies.frame[a], rect_a), (b, &bodies.frame[b], rect_b));
                 nearest = Some((depth, touch::at_nearest_face(one, two)));
             }
         }

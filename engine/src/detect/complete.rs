@@ -9,9 +9,16 @@
 //!     └──────────┘    └───────────────┘     Four axes are tried in the order i.X, i.Z, j.X, j.Z; a later one must
 //!                                           be better by more than [`PREFERENCE`], so that equals go to the first.
 //! ```
+//!
+//! Two things overrule the least overlap: a pair that was apart an iteration ago is parted the way it came, and goes on
+//! being parted that way ([`super::sides`]); and a face that lies inside what rectangles make up together is none
+//! ([`super::seams`]).
 
-use super::{Contact, Face};
-use crate::area::{Rect, Vec2};
+use super::Face;
+use super::manifold::{Manifold, Placed, cut_to_face};
+use super::seams;
+use super::sides::{ALONG, Sides};
+use crate::area::Vec2;
 use crate::bodies::Bodies;
 use crate::frame::Frame;
 use crate::work::Work;
@@ -21,82 +28,16 @@ use crate::work::Work;
 /// normal could change from step to step.
 const PREFERENCE: f64 = 1e-9;
 
-/// One or two points in which two bodies touch, and the face they lie at.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Manifold {
-    /// The body whose vertices or edge it is.
-    pub owner: usize,
-    /// The body whose face is hit.
-    pub reference: usize,
-    /// That face.
-    pub face: Face,
-    /// Overlap along the face's normal \[m\], > 0: the least way apart.
-    pub depth: f64,
-    points: [Point; 2],
-    count: usize,
-}
-
-/// A point of contact.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Point {
-    /// The point of the owner, in its frame.
-    pub vertex: Vec2,
-    /// The same point put onto the face, in the reference's frame.
-    pub on_face: Vec2,
-    /// How far inside the face it lies \[m\], ≥ 0.
-    pub depth: f64,
-    /// Which feature of the owner it is: an end of the edge that was cut (0, 1), or where the face's side cut it (2, 3).
-    pub feature: u8,
-}
-
-impl From<Contact> for Manifold {
-    /// A vertex alone.
-    fn from(contact: Contact) -> Self {
-        let Contact { owner, reference, vertex, on_face, face, depth } = contact;
-        let point = Point { vertex, on_face, depth, feature: 0 };
-        Manifold { owner, reference, face, depth, points: [point, Point::default()], count: 1 }
-    }
-}
-
-impl Manifold {
-    /// A manifold of the first `count` of two points.
-    #[must_use]
-    pub fn new(owner: usize, reference: usize, face: Face, depth: f64, points: [Point; 2], count: usize) -> Self {
-        Manifold { owner, reference, face, depth, points, count }
-    }
-
-    /// Its one or two points.
-    #[must_use]
-    pub fn points(&self) -> &[Point] {
-        &self.points[..self.count]
-    }
-
-    /// The contact at the mean of the points: where the document's exchange acts (reading R10).
-    #[must_use]
-    pub fn mean(&self) -> Contact {
-        let share = 1.0 / self.count as f64;
-        let mean = |part: fn(&Point) -> Vec2| self.points().iter().map(part).sum::<Vec2>() * share;
-        Contact {
-            owner: self.owner,
-            reference: self.reference,
-            vertex: mean(|point| point.vertex),
-            on_face: mean(|point| point.on_face),
-            face: self.face,
-            depth: self.depth,
-        }
-    }
-}
-
 /// The deepest overlap between rectangles of i and of j, the first of equals; `None` when no two overlap.
 /// Touching is not overlapping.
 #[must_use]
-pub fn find(bodies: &Bodies, i: usize, j: usize, work: &mut Work) -> Option<Manifold> {
+pub fn find(bodies: &Bodies, i: usize, j: usize, sides: &Sides, work: &mut Work) -> Option<Manifold> {
     work.pairs_tested += 1;
     let mut deepest: Option<Manifold> = None;
-    for rect_i in bodies.rects_of(i) {
-        for rect_j in bodies.rects_of(j) {
+    for one in Placed::all(bodies, i) {
+        for two in Placed::all(bodies, j) {
             work.axes_tested += 4;
-            let found = between((i, &bodies.frame[i], rect_i), (j, &bodies.frame[j], rect_j));
+            let found = between(bodies, one, two, sides.of(one.index, two.index));
             if let Some(manifold) = found.filter(|found| deepest.is_none_or(|best| found.depth > best.depth)) {
                 deepest = Some(manifold);
             }
@@ -105,78 +46,145 @@ pub fn find(bodies: &Bodies, i: usize, j: usize, work: &mut Work) -> Option<Mani
     deepest
 }
 
-/// A rectangle of a body, with the body's index and frame.
-pub type Placed<'a> = (usize, &'a Frame, &'a Rect);
+/// Whether any two rectangles of i and j overlap; of those that do, remembers from which side they came together.
+/// `earlier` tells where a body stood an iteration ago.
+pub fn list(
+    bodies: &Bodies,
+    (i, j): (usize, usize),
+    sides: &mut Sides,
+    earlier: impl Fn(usize) -> Frame,
+    work: &mut Work,
+) -> bool {
+    work.pairs_tested += 1;
+    let mut any = false;
+    for one in Placed::all(bodies, i) {
+        for two in Placed::all(bodies, j) {
+            work.axes_tested += 4;
+            let Some(ways) = Way::all(one, two) else { continue };
+            any = true;
+            let were = (earlier(i), earlier(j));
+            let (was_one, was_two) = (Placed { frame: &were.0, ..one }, Placed { frame: &were.1, ..two });
+            let came = entered(&ways, (one, two), (was_one, was_two)).or_else(|| sides.before(one.index, two.index));
+            sides.note(one.index, two.index, came);
+        }
+    }
+    any
+}
 
-/// The manifold of two rectangles that overlap.
-fn between(i: Placed, j: Placed) -> Option<Manifold> {
-    let on_i = least_overlap(i, j)?;
-    let on_j = least_overlap(j, i)?;
-    let size = i.2.half().max().min(j.2.half().max());
-    let ((reference, owner), (face, depth)) =
-        if on_j.1 < on_i.1 - PREFERENCE * size { ((j, i), on_j) } else { ((i, j), on_i) };
-    let [first, second] = cut_to_face(reference, owner, face);
+/// A way to part two rectangles: across a face of one of them.
+#[derive(Clone, Copy, Debug)]
+struct Way {
+    /// Whether the face is one of the first rectangle.
+    of_first: bool,
+    face: Face,
+    /// Overlap along the face's normal \[m\]; negative where it separates.
+    depth: f64,
+}
+
+impl Way {
+    /// The four ways, in the order that breaks ties; `None` when one of them separates the two.
+    fn all(i: Placed, j: Placed) -> Option<[Way; 4]> {
+        let ([ix, iz], [jx, jz]) = (ways_across(true, i, j), ways_across(false, j, i));
+        let all = [ix, iz, jx, jz];
+        all.iter().all(|way| way.depth > 0.0).then_some(all)
+    }
+
+    /// The same axis with the face on the given side of the reference, for two rectangles as they stand.
+    fn towards(self, positive: bool, i: Placed, j: Placed) -> Way {
+        if self.face.is_positive() == positive {
+            return self;
+        }
+        let (reference, owner) = if self.of_first { (i, j) } else { (j, i) };
+        let from_centre = owner.frame.seen_from(reference.frame).place(owner.rect.centre()) - reference.rect.centre();
+        let d = from_centre.dot(&self.face.normal());
+        Way { face: self.face.opposite(), depth: self.depth + 2.0 * d, ..self }
+    }
+
+    /// The face's normal in the world, from the first rectangle to the second.
+    fn normal(&self, i: Placed, j: Placed) -> Vec2 {
+        if self.of_first { i.frame.outward(self.face.normal()) } else { -j.frame.outward(self.face.normal()) }
+    }
+}
+
+/// The faces of the reference along x and along z that are nearer to the other rectangle, and the overlaps there.
+fn ways_across(of_first: bool, reference: Placed, owner: Placed) -> [Way; 2] {
+    let seen = owner.frame.seen_from(reference.frame);
+    let d = seen.place(owner.rect.centre()) - reference.rect.centre();
+    let (cos, sin) = (seen.cos.abs(), seen.sin.abs());
+    let (half, reach) = (reference.rect.half(), owner.rect.half());
+    let x = half.x + (cos * reach.x + sin * reach.y) - d.x.abs();
+    let z = half.y + (sin * reach.x + cos * reach.y) - d.y.abs();
+    [
+        Way { of_first, face: if d.x >= 0.0 { Face::XMax } else { Face::XMin }, depth: x },
+        Way { of_first, face: if d.y >= 0.0 { Face::ZMax } else { Face::ZMin }, depth: z },
+    ]
+}
+
+/// The manifold of two rectangles that overlap, parted the way they came where that is known.
+fn between(bodies: &Bodies, i: Placed, j: Placed, came: Option<Vec2>) -> Option<Manifold> {
+    let ways = Way::all(i, j)?;
+    let mut open = ways.map(|way| came.map_or(Some(way), |normal| along(way, normal, i, j)));
+    if open.iter().all(Option::is_none) {
+        open = ways.map(Some);
+    }
+    while let Some(k) = least(&open, i, j) {
+        let way = open[k].take()?;
+        let (reference, owner) = if way.of_first { (i, j) } else { (j, i) };
+        let manifold = manifold(reference, owner, way);
+        if !seams::hides(&bodies.seams, reference, owner, &manifold) {
+            return Some(manifold);
+        }
+    }
+    None
+}
+
+/// The way as it leads in the direction the two came; `None` when its axis runs across that.
+fn along(way: Way, normal: Vec2, i: Placed, j: Placed) -> Option<Way> {
+    let share = way.normal(i, j).dot(&normal);
+    (share.abs() > ALONG).then(|| way.towards(way.face.is_positive() == (share > 0.0), i, j))
+}
+
+/// The way of least overlap, the first of equals.
+fn least(ways: &[Option<Way>; 4], i: Placed, j: Placed) -> Option<usize> {
+    let margin = PREFERENCE * i.rect.half().max().min(j.rect.half().max());
+    let mut best: Option<(usize, f64)> = None;
+    for (k, way) in ways.iter().enumerate() {
+        if let Some(way) = way.filter(|way| best.is_none_or(|(_, depth)| way.depth < depth - margin)) {
+            best = Some((k, way.depth));
+        }
+    }
+    best.map(|(k, _)| k)
+}
+
+/// One or two points at the face of a way.
+fn manifold(reference: Placed, owner: Placed, way: Way) -> Manifold {
+    let [first, second] = cut_to_face(reference, owner, way.face);
     // An end of the edge that lies outside the face does not touch; rounding may put both there.
     let (points, count) = match (first.depth >= 0.0, second.depth >= 0.0) {
         (true, true) => ([first, second], 2),
         (is_first, is_second) if is_first || (!is_second && first.depth >= second.depth) => ([first, second], 1),
         _ => ([second, first], 1),
     };
-    Some(Manifold { owner: owner.0, reference: reference.0, face, depth, points, count })
+    Manifold::new(owner.body, reference.body, way.face, way.depth, points, count)
 }
 
-/// The face of the reference across which the other rectangle overlaps it least, and by how much; `None` when an
-/// axis of the reference separates the two.
-fn least_overlap((_, frame, rect): Placed, (_, other_frame, other): Placed) -> Option<(Face, f64)> {
-    let seen = other_frame.seen_from(frame);
-    let d = seen.place(other.centre()) - rect.centre();
-    let (cos, sin) = (seen.cos.abs(), seen.sin.abs());
-    let (half, reach) = (rect.half(), other.half());
-    let x = half.x + (cos * reach.x + sin * reach.y) - d.x.abs();
-    let z = half.y + (sin * reach.x + cos * reach.y) - d.y.abs();
-    if x <= 0.0 || z <= 0.0 {
-        return None;
+/// The normal of the face across which two rectangles came to overlap, from the first to the second: of the axes that
+/// separated them where they stood before, the one that ceased to last. `None` when none did.
+fn entered(ways: &[Way; 4], (i, j): (Placed, Placed), (was_i, was_j): (Placed, Placed)) -> Option<Vec2> {
+    let before = {
+        let ([ix, iz], [jx, jz]) = (ways_across(true, was_i, was_j), ways_across(false, was_j, was_i));
+        [ix, iz, jx, jz]
+    };
+    let mut latest: Option<(f64, Vec2)> = None;
+    for (was, now) in before.iter().zip(ways) {
+        if was.depth >= 0.0 {
+            continue;
+        }
+        let now = now.towards(was.face.is_positive(), i, j);
+        let share = -was.depth / (now.depth - was.depth);
+        if latest.is_none_or(|(best, _)| share > best) {
+            latest = Some((share, was.normal(was_i, was_j)));
+        }
     }
-    let size = half.max().min(reach.max());
-    Some(match z < x - PREFERENCE * size {
-        false => (if d.x >= 0.0 { Face::XMax } else { Face::XMin }, x),
-        true => (if d.y >= 0.0 { Face::ZMax } else { Face::ZMin }, z),
-    })
-}
-
-/// The owner's edge that looks at the face most squarely, cut to the face's width: its two ends.
-#[must_use]
-pub fn cut_to_face((_, frame, rect): Placed, (_, owner_frame, owner): Placed, face: Face) -> [Point; 2] {
-    let seen = owner_frame.seen_from(frame);
-    let edge = facing_edge(owner, seen.inward(face.normal()));
-    let [from, to] = edge.map(|vertex| seen.place(vertex));
-    let along = |p: Vec2| if matches!(face, Face::XMax | Face::XMin) { p.y } else { p.x };
-    let (least, greatest) = match face {
-        Face::XMax | Face::XMin => (rect.z_min, rect.z_max),
-        Face::ZMax | Face::ZMin => (rect.x_min, rect.x_max),
-    };
-    let point = |share: f64, feature: u8| {
-        let p = from + (to - from) * share;
-        let vertex = edge[0] + (edge[1] - edge[0]) * share;
-        Point { vertex, on_face: face.project(rect, p), depth: face.depth_of(rect, p), feature }
-    };
-    let (start, end) = (along(from), along(to));
-    let share_at = |t: f64| ((t - start) / (end - start)).clamp(0.0, 1.0);
-    let limits = |t: f64, feature: u8| match t {
-        t if t < least => (share_at(least), feature + 2),
-        t if t > greatest => (share_at(greatest), feature + 2),
-        _ => (f64::from(feature), feature),
-    };
-    [limits(start, 0), limits(end, 1)].map(|(share, feature)| point(share, feature))
-}
-
-/// The edge of a rectangle whose outward normal is most against a direction, by its two ends in R4's order round.
-fn facing_edge(rect: &Rect, against: Vec2) -> [Vec2; 2] {
-    let [v0, v1, v2, v3] = rect.vertices();
-    match (against.x.abs() >= against.y.abs(), against.x > 0.0, against.y > 0.0) {
-        (true, true, _) => [v3, v0],
-        (true, false, _) => [v1, v2],
-        (false, _, true) => [v0, v1],
-        (false, _, false) => [v2, v3],
-    }
+    latest.map(|(_, normal)| normal)
 }

@@ -1,7 +1,10 @@
 //! Detection (§2.3): whether and where two bodies overlap.
 
 pub mod complete;
+pub mod manifold;
 pub mod overlap;
+pub mod seams;
+pub mod sides;
 pub mod touch;
 pub mod vertices;
 
@@ -9,7 +12,8 @@ use crate::area::{Rect, Vec2};
 use crate::bodies::Bodies;
 use crate::scene::Detection;
 use crate::work::Work;
-use complete::Manifold;
+use manifold::Manifold;
+use sides::Sides;
 
 /// A face of a rectangle, in the order in which reading R5 breaks ties.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,6 +55,47 @@ impl Face {
         }
     }
 
+    /// Whether its normal points along +X or +Z.
+    #[inline]
+    #[must_use]
+    pub fn is_positive(self) -> bool {
+        matches!(self, Face::XMax | Face::ZMax)
+    }
+
+    /// The face across from it.
+    #[must_use]
+    pub fn opposite(self) -> Face {
+        match self {
+            Face::XMax => Face::XMin,
+            Face::XMin => Face::XMax,
+            Face::ZMax => Face::ZMin,
+            Face::ZMin => Face::ZMax,
+        }
+    }
+
+    /// Where along the face a point lies \[m\]: its z for a face at an x, its x for a face at a z.
+    #[inline]
+    #[must_use]
+    pub fn along(self, point: Vec2) -> f64 {
+        if matches!(self, Face::XMax | Face::XMin) { point.y } else { point.x }
+    }
+
+    /// From where to where the face reaches along itself \[m\].
+    #[inline]
+    #[must_use]
+    pub fn width(self, rect: &Rect) -> (f64, f64) {
+        match self {
+            Face::XMax | Face::XMin => (rect.z_min, rect.z_max),
+            Face::ZMax | Face::ZMin => (rect.x_min, rect.x_max),
+        }
+    }
+
+    /// The point of the face at a place along it.
+    #[must_use]
+    pub fn place(self, rect: &Rect, along: f64) -> Vec2 {
+        self.project(rect, Vec2::repeat(along))
+    }
+
     /// The point put onto the face, along its normal.
     #[must_use]
     pub fn project(self, rect: &Rect, point: Vec2) -> Vec2 {
@@ -80,30 +125,32 @@ pub struct Contact {
     pub depth: f64,
 }
 
-/// Whether the pair i < j collides, by the scene's detection.
-#[inline]
-#[must_use]
-pub fn collides(detection: Detection, bodies: &Bodies, i: usize, j: usize, work: &mut Work) -> bool {
-    match detection {
-        Detection::Vertices => vertices::find(bodies, i, j, work).is_some(),
-        Detection::Complete => complete::find(bodies, i, j, work).is_some(),
-    }
-}
-
 /// The one contact that the document treats: the first vertex, or the mean of the manifold's points (R10).
 #[must_use]
-pub fn contact(detection: Detection, bodies: &Bodies, i: usize, j: usize, work: &mut Work) -> Option<Contact> {
+pub fn contact(
+    detection: Detection,
+    bodies: &Bodies,
+    (i, j): (usize, usize),
+    sides: &Sides,
+    work: &mut Work,
+) -> Option<Contact> {
     match detection {
         Detection::Vertices => vertices::find(bodies, i, j, work),
-        Detection::Complete => complete::find(bodies, i, j, work).map(|manifold| manifold.mean()),
+        Detection::Complete => complete::find(bodies, i, j, sides, work).map(|manifold| manifold.mean()),
     }
 }
 
 /// The points of contact that impulses act at: the first vertex alone, or the whole manifold.
 #[must_use]
-pub fn manifold(detection: Detection, bodies: &Bodies, i: usize, j: usize, work: &mut Work) -> Option<Manifold> {
+pub fn manifold(
+    detection: Detection,
+    bodies: &Bodies,
+    (i, j): (usize, usize),
+    sides: &Sides,
+    work: &mut Work,
+) -> Option<Manifold> {
     match detection {
         Detection::Vertices => vertices::find(bodies, i, j, work).map(Manifold::from),
-        Detection::Complete => complete::find(bodies, i, j, work),
+        Detection::Complete => complete::find(bodies, i, j, sides, work),
     }
 }

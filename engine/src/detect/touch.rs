@@ -6,7 +6,7 @@
 //! one after the other leave it with v = 23/25 and ω = 24/25 of what came). The true answer has this step in it; the
 //! threshold only says where, far above rounding (1e-16 each hit) and far below what a scene can mean.
 
-use super::complete::{Manifold, Placed, Point, cut_to_face};
+use super::manifold::{Manifold, Placed, Point, cut_to_face};
 use super::{Contact, Face};
 use crate::area::{Rect, Vec2};
 
@@ -18,7 +18,7 @@ pub const FLAT: f64 = 1e-10;
 pub fn at_face(reference: Placed, owner: Placed, face: Face) -> Manifold {
     let [first, second] = cut_to_face(reference, owner, face);
     let apart = (second.vertex - first.vertex).norm();
-    let size = reference.2.half().min().min(owner.2.half().min());
+    let size = reference.rect.half().min().min(owner.rect.half().min());
     let is_flat = (first.depth - second.depth).abs() <= FLAT * apart;
     let (points, count) = match first.depth >= second.depth {
         _ if is_flat && apart > FLAT * size => ([first, second], 2),
@@ -26,7 +26,7 @@ pub fn at_face(reference: Placed, owner: Placed, face: Face) -> Manifold {
         false => ([second, first], 1),
     };
     let depth = points[0].depth.max(if count == 2 { points[1].depth } else { f64::NEG_INFINITY });
-    Manifold::new(owner.0, reference.0, face, depth, points, count)
+    Manifold::new(owner.body, reference.body, face, depth, points, count)
 }
 
 /// The contact of two rectangles at the face that separates them best, or least overlaps: for those that rest.
@@ -35,17 +35,17 @@ pub fn at_nearest_face(one: Placed, two: Placed) -> Manifold {
     let [x, z] = faces(one, two);
     let [other_x, other_z] = faces(two, one);
     let all = [(one, two, x), (one, two, z), (two, one, other_x), (two, one, other_z)];
-    let size = one.2.half().min().min(two.2.half().min());
+    let size = one.rect.half().min().min(two.rect.half().min());
     let (reference, owner, (face, _)) =
         all[1..].iter().fold(all[0], |best, next| if next.2.1 > best.2.1 + FLAT * size { *next } else { best });
     at_face(reference, owner, face)
 }
 
 /// The faces of a reference that look at another rectangle, along x and z, and how far it is from each.
-fn faces((_, frame, rect): Placed, (_, other_frame, other): Placed) -> [(Face, f64); 2] {
-    let seen = other_frame.seen_from(frame);
-    let d = seen.place(other.centre()) - rect.centre();
-    let (half, reach, c, s) = (rect.half(), other.half(), seen.cos.abs(), seen.sin.abs());
+fn faces(reference: Placed, other: Placed) -> [(Face, f64); 2] {
+    let seen = other.frame.seen_from(reference.frame);
+    let d = seen.place(other.rect.centre()) - reference.rect.centre();
+    let (half, reach, c, s) = (reference.rect.half(), other.rect.half(), seen.cos.abs(), seen.sin.abs());
     let x = d.x.abs() - (half.x + (c * reach.x + s * reach.y));
     let z = d.y.abs() - (half.y + (s * reach.x + c * reach.y));
     [(if d.x >= 0.0 { Face::XMax } else { Face::XMin }, x), (if d.y >= 0.0 { Face::ZMax } else { Face::ZMin }, z)]

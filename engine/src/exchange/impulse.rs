@@ -19,7 +19,7 @@ use super::flat::Flat;
 use super::impact::{Impact, Surface};
 use crate::area::Vec2;
 use crate::bodies::{Bodies, Role};
-use crate::detect::complete::{Manifold, Point};
+use crate::detect::manifold::{Manifold, Point};
 use crate::frame::perp;
 
 /// A point of contact in world directions: the arms from both centres.

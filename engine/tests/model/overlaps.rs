@@ -3,6 +3,8 @@
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
 use choque_engine::bodies::{Bodies, Inertia, Motion, Role};
+use choque_engine::detect::manifold::Manifold;
+use choque_engine::detect::sides::Sides;
 use choque_engine::detect::{Face, complete, overlap, vertices};
 use choque_engine::{Rect, Vec2, Work};
 
@@ -24,8 +26,8 @@ fn bodies(of: [Rectangle; 2]) -> Bodies {
     bodies
 }
 
-fn find(bodies: &Bodies) -> Option<complete::Manifold> {
-    complete::find(bodies, 0, 1, &mut Work::default())
+fn find(bodies: &Bodies) -> Option<Manifold> {
+    complete::find(bodies, 0, 1, &Sides::default(), &mut Work::default())
 }
 
 #[test]
