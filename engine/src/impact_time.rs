@@ -6,12 +6,17 @@
 //! separates best, and repeats. So **it cannot step over an impact**; and near one, where A Δ² fades, it is Newton's
 //! iteration and doubles its digits at every step.
 //!
+//! Where a vertex lies at the face already, held there by what presses the two together, that parabola allows next to no
+//! step. There the next term is known as well, q″, and |q‴| ≤ J bounds the rest.
+//!
 //! Before anything is searched, the time is cut to that in which the circles around both overlap;
 //! there the centres are no further apart than the radii, which bounds A:
 //!
 //! ```text
 //! q = R(−θ_r)(d + r) · n − h,   d = O_o − O_r,   r the vertex of the other, turning at ω_o
 //! |q″| ≤ a + (ω_o² + α_o)|r| + 2|ω_r|(|d′| + |ω_o||r|) + (ω_r² + α_r)(|d| + |r|)
+//! q″ = n · (a + α_o J r − ω_o² r − 2ω_r J w − α_r J p + ω_r² p),   w the velocity of the vertex seen from the reference,
+//!                                                                   p its place there, J a quarter turn
 //! ```
 //!
 //! with a, α bounds on the accelerations (gravity, drag, pushes) and |ω|, |d′| at their greatest. Between two bodies
@@ -75,6 +80,12 @@ pub const STILL: f64 = 1e-14;
 /// face would choose by rounding.
 const ALIKE: f64 = 1e-10;
 
+/// A step below this share of the time that is left is worth a closer look at what bends the way.
+const CLOSE: f64 = 1e-3;
+
+/// How often that closer look is shortened before it is given up.
+const SHORTENINGS: u32 = 30;
+
 /// Steps of one search; each at least halves what is left or doubles the digits, so only a grazing flight of absurd length
 /// could need as many, and it is then taken to touch where the search has come: never to have passed.
 const MOST_STEPS: u32 = 10_000;
@@ -88,7 +99,7 @@ pub fn first_touch(a: &Flier, b: &Flier, horizon: f64) -> Option<Touch> {
     let mut time = start;
     for _ in 0..MOST_STEPS {
         let now = search.at(time);
-        match search.advance(&now) {
+        match search.advance(&now, end - time) {
             Advance::By(step) if time + step > time => time += step,
             Advance::By(_) | Advance::Touching => return Some(search.touch(&now, time)),
         }
@@ -172,31 +183,68 @@ impl<'a> Search<'a> {
 
     /// How far time may go before any vertex can be at the face that separates best; where that one is reached, at
     /// another that separates still.
-    fn advance(&self, now: &Now) -> Advance {
+    fn advance(&self, now: &Now, left: f64) -> Advance {
         let best = now.best();
-        if let By(step) = self.until_reached(now, best) {
+        if let By(step) = self.until_reached(now, best, left) {
             return By(step);
         }
         let others = now.faces.iter().filter(|other| other.gap >= -self.alike && other.gap < best.gap + self.alike);
-        others.fold(Advance::Touching, |found, other| match (found, self.until_reached(now, *other)) {
+        others.fold(Advance::Touching, |found, other| match (found, self.until_reached(now, *other, left)) {
             (By(so_far), By(step)) => By(so_far.max(step)),
             (By(step), Advance::Touching) | (Advance::Touching, By(step)) => By(step),
             (Advance::Touching, Advance::Touching) => Advance::Touching,
         })
     }
 
-    fn until_reached(&self, now: &Now, by: Separating) -> Advance {
+    fn until_reached(&self, now: &Now, by: Separating, left: f64) -> Advance {
         let bend = if by.of_first { self.bounds.bend.0 } else { self.bounds.bend.1 };
         let mut step = f64::INFINITY;
-        for (q, rate) in self.vertices(now, by) {
+        for (k, (q, rate)) in self.vertices(now, by).into_iter().enumerate() {
             if q <= self.tolerance && rate < -self.still {
                 return Advance::Touching;
             }
             // A vertex that lies at the face and leaves it may come back: it is followed down to the tolerance below.
             let room = q.max(self.tolerance);
-            step = step.min(first_root(room, rate, bend));
+            let mut sure = first_root(room, rate, bend);
+            if sure < CLOSE * left {
+                sure = sure.max(self.with_curvature(now, by, k, (room, rate), left));
+            }
+            step = step.min(sure);
         }
         By(step)
+    }
+
+    /// How far time may go before the k-th vertex can be at a face, knowing q″ too: over any τ, q ≥ q + q′ Δ + (q″ − Jτ/3) Δ²/2.
+    fn with_curvature(&self, now: &Now, by: Separating, k: usize, (q, rate): (f64, f64), left: f64) -> f64 {
+        let (curvature, jerk) = (self.curvature(now, by, k), self.bounds.jerk(by.of_first));
+        let mut best: f64 = 0.0;
+        let mut within = left;
+        for _ in 0..SHORTENINGS {
+            best = best.max(within.min(first_root(q, rate, jerk * within / 3.0 - curvature)));
+            if best >= within {
+                break;
+            }
+            within *= 0.5;
+        }
+        best
+    }
+
+    /// q″ of the k-th vertex of the other rectangle, from a face.
+    fn curvature(&self, now: &Now, by: Separating, k: usize) -> f64 {
+        let (r, o) = if by.of_first { (0, 1) } else { (1, 0) };
+        let other = if by.of_first { &self.b.rect } else { &self.a.rect };
+        let seen = now.frames[o].seen_from(&now.frames[r]);
+        let (path_r, path_o) = (&now.paths[r], &now.paths[o]);
+        let arm = seen.outward(other.vertices()[k]);
+        let p = seen.o + arm;
+        let (w_r, w_o) = (path_r.motion.omega, path_o.motion.omega);
+        let inward = |v: Vec2| now.frames[r].inward(v);
+        let w = inward(path_o.motion.v - path_r.motion.v) + perp(arm) * w_o - perp(p) * w_r;
+        let material = inward(path_o.acceleration() - path_r.acceleration())
+            + perp(arm) * path_o.angular_acceleration()
+            - arm * (w_o * w_o);
+        let seen_turning = perp(w) * (2.0 * w_r) + perp(p) * path_r.angular_acceleration() - p * (w_r * w_r);
+        (material - seen_turning).dot(&by.face.normal())
     }
 
     /// Distance and its rate of change, of each vertex of the other rectangle from a face.
@@ -254,10 +302,14 @@ fn separating(of_first: bool, frame: &Frame, rect: &Rect, other_frame: &Frame, o
     ]
 }
 
-/// The first Δ > 0 with q + q′ Δ − A Δ²/2 = 0, for q > 0 and A ≥ 0; infinite where there is none.
+/// The first Δ > 0 with q + q′ Δ − A Δ²/2 = 0, for q > 0; infinite where there is none.
 #[inline]
 fn first_root(q: f64, rate: f64, bend: f64) -> f64 {
-    let root = (rate * rate + 2.0 * bend * q).sqrt();
+    let square = rate * rate + 2.0 * bend * q;
+    if square < 0.0 {
+        return f64::INFINITY;
+    }
+    let root = square.sqrt();
     // (q′ + √(q′² + 2Aq))/A, or written so that it does not cancel for q′ < 0
     if rate < 0.0 {
         2.0 * q / (root - rate)

@@ -104,21 +104,22 @@ pub fn cut_to_face(reference: Placed, owner: Placed, face: Face) -> [Point; 2] {
     let rect = reference.rect;
     let seen = owner.frame.seen_from(reference.frame);
     let edge = facing_edge(owner.rect, seen.inward(face.normal()));
-    let [from, to] = edge.map(|vertex| seen.place(vertex));
+    let placed = edge.map(|vertex| seen.place(vertex));
     let (least, greatest) = face.width(rect);
-    let point = |share: f64, feature: u8| {
-        let p = from + (to - from) * share;
-        let vertex = edge[0] + (edge[1] - edge[0]) * share;
-        Point { vertex, on_face: face.project(rect, p), depth: face.depth_of(rect, p), feature }
-    };
-    let (start, end) = (face.along(from), face.along(to));
-    let share_at = |t: f64| ((t - start) / (end - start)).clamp(0.0, 1.0);
-    let limits = |t: f64, feature: u8| match t {
-        t if t < least => (share_at(least), feature + 2),
-        t if t > greatest => (share_at(greatest), feature + 2),
-        _ => (f64::from(feature), feature),
-    };
-    [limits(start, 0), limits(end, 1)].map(|(share, feature)| point(share, feature))
+    // Each end is cut from its own side: an end that is whole is the vertex to the bit, and mirror images stay so.
+    [0, 1].map(|end| {
+        let (near, far) = (end, 1 - end);
+        let (t, other) = (face.along(placed[near]), face.along(placed[far]));
+        let share_to = |limit: f64| ((limit - t) / (other - t)).clamp(0.0, 1.0);
+        let (share, feature) = match t {
+            t if t < least => (share_to(least), end + 2),
+            t if t > greatest => (share_to(greatest), end + 2),
+            _ => (0.0, end),
+        };
+        let p = placed[near] + (placed[far] - placed[near]) * share;
+        let vertex = edge[near] + (edge[far] - edge[near]) * share;
+        Point { vertex, on_face: face.project(rect, p), depth: face.depth_of(rect, p), feature: feature as u8 }
+    })
 }
 
 /// The edge of a rectangle whose outward normal is most against a direction, by its two ends in R4's order round.

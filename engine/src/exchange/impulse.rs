@@ -120,12 +120,14 @@ fn settle_rounding(
         true => -restitution * before[k].min(0.0) - relative_velocity(bodies, i, j, &points[k]).dot(&n),
         false => 0.0,
     });
+    let both = pushed[0] > 0.0 && pushed[1] > 0.0;
     for k in (0..2).filter(|k| pushed[*k] > 0.0) {
-        // Half to each: two points of a face share what they push.
-        let share = if pushed[0] > 0.0 && pushed[1] > 0.0 { 0.5 } else { 1.0 };
-        let k_nn = inverse.mass_i + inverse.mass_j;
-        let mean = if share == 0.5 { 0.5 * (rest[0] + rest[1]) } else { rest[k] };
-        apply(bodies, i, j, &inverse, &points[k], n * (share * mean / k_nn));
+        // Two points of a face share what they push, and together push the bodies straight; one alone turns them too.
+        let p = match both {
+            true => 0.25 * (rest[0] + rest[1]) / (inverse.mass_i + inverse.mass_j),
+            false => rest[k] / inverse.response(&points[k], n, &points[k], n),
+        };
+        apply(bodies, i, j, &inverse, &points[k], n * p);
     }
 }
 

@@ -14,19 +14,28 @@ pub(super) struct Bounds {
     pub(super) bend: (f64, f64),
     /// How far gravity, drag and pushes can carry the centres off their straight relative course \[m\].
     stray: f64,
+    /// What acts on each.
+    each: (Greatest, Greatest),
+    /// |d|, |d′|, |d″| and |d‴| at most.
+    course: [f64; 4],
 }
 
-/// What acts on one body, at its greatest over the search.
+/// What acts on one body, at its greatest over the search: |ω|, |ω̇| and |ω̈|.
+#[derive(Clone, Copy, Debug)]
 struct Greatest {
-    /// |ω| and |ω̇|.
     omega: f64,
     alpha: f64,
+    alpha_rate: f64,
 }
 
 fn greatest(path: &Path, horizon: f64) -> Greatest {
     let alpha = path.angular_acceleration().abs();
     let turning = path.motion.omega.abs();
-    Greatest { omega: if alpha == 0.0 { turning } else { turning + alpha * horizon }, alpha }
+    Greatest {
+        omega: if alpha == 0.0 { turning } else { turning + alpha * horizon },
+        alpha,
+        alpha_rate: alpha * path.pull.drag.1,
+    }
 }
 
 /// More than rounding could take away from a bound.
@@ -44,7 +53,9 @@ impl Bounds {
             (0.5 * acceleration * horizon * horizon, acceleration * horizon)
         };
         let u = (b.path.motion.v - a.path.motion.v).norm() + gained;
-        let (one, two) = (greatest(&a.path, horizon), greatest(&b.path, horizon));
+        let rate = pull_a.norm() * a.path.pull.drag.0 + pull_b.norm() * b.path.pull.drag.0;
+        let each = (greatest(&a.path, horizon), greatest(&b.path, horizon));
+        let (one, two) = each;
         let d = (radii.0 + radii.1) * SURE + 2.0 * stray;
         let bend = |reference: &Greatest, other: &Greatest, r: f64| {
             acceleration
@@ -52,7 +63,21 @@ impl Bounds {
                 + 2.0 * reference.omega * (u + other.omega * r)
                 + (reference.omega * reference.omega + reference.alpha) * (d + r)
         };
-        Bounds { radii, bend: (bend(&one, &two, radii.1), bend(&two, &one, radii.0)), stray }
+        let bend = (bend(&one, &two, radii.1), bend(&two, &one, radii.0));
+        Bounds { radii, bend, stray, each, course: [d, u, acceleration, rate] }
+    }
+
+    /// J: a bound on |q‴|, with the first as the reference or the second.
+    pub(super) fn jerk(&self, of_first: bool) -> f64 {
+        let [d, u, a, rate] = self.course;
+        let (reference, other, r) =
+            if of_first { (self.each.0, self.each.1, self.radii.1) } else { (self.each.1, self.each.0, self.radii.0) };
+        let Greatest { omega: w, alpha, alpha_rate } = reference;
+        let Greatest { omega: v, alpha: beta, alpha_rate: beta_rate } = other;
+        let third = rate + (v * v * v + 3.0 * v * beta + beta_rate) * r;
+        let second = a + (v * v + beta) * r;
+        let turning = w * w + alpha;
+        third + 3.0 * w * second + 3.0 * turning * (u + v * r) + (w * w * w + 3.0 * w * alpha + alpha_rate) * (d + r)
     }
 
     /// The speeds that the motion of a vertex is put together from \[m/s\].
