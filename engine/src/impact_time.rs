@@ -93,21 +93,47 @@ const MOST_STEPS: u32 = 10_000;
 /// When two rectangles that do not overlap first touch while approaching, within a horizon \[s\].
 #[must_use]
 pub fn first_touch(a: &Flier, b: &Flier, horizon: f64) -> Option<Touch> {
+    first_open_touch(a, b, horizon, |_, _| false)
+}
+
+/// The same where some faces may be hidden (by seams): what comes at a hidden face is not touched there, and the search goes
+/// on without that face. `hides` is told of a touch and of the frames at that time.
+#[must_use]
+pub fn first_open_touch(
+    a: &Flier,
+    b: &Flier,
+    horizon: f64,
+    mut hides: impl FnMut(&Touch, [&Frame; 2]) -> bool,
+) -> Option<Touch> {
     let bounds = Bounds::of(a, b, horizon);
     let (start, end) = bounds.window(a, b, horizon)?;
-    let search = Search::new(a, b, bounds);
+    let mut search = Search::new(a, b, bounds, horizon);
     let mut time = start;
     for _ in 0..MOST_STEPS {
         let now = search.at(time);
+        if now.best().gap < -search.alike && search.hidden != [false; 8] {
+            return None; // it is behind what hides the face, which is touched before
+        }
         match search.advance(&now, end - time) {
             Advance::By(step) if time + step > time => time += step,
-            Advance::By(_) | Advance::Touching => return Some(search.touch(&now, time)),
+            Advance::By(_) | Advance::Touching => {
+                let touch = search.touch(&now, time);
+                if !hides(&touch, [&now.frames[0], &now.frames[1]]) {
+                    return Some(touch);
+                }
+                search.hidden[hidden_at(touch.face_of_first, touch.face)] = true;
+            }
         }
         if time > end {
             return None;
         }
     }
     Some(search.touch(&search.at(time), time))
+}
+
+/// The place of a face among those that may be hidden.
+fn hidden_at(of_first: bool, face: Face) -> usize {
+    4 * usize::from(!of_first) + face as usize
 }
 
 /// A pair, and what holds of it all through the search.
@@ -120,9 +146,11 @@ struct Search<'a> {
     tolerance: f64,
     /// Gaps that differ by less are alike \[m\].
     alike: f64,
-    /// A vertex that comes more slowly is still \[m/s\].
+    /// A vertex that comes more slowly, or would not come deeper than the tolerance in all the time, is still \[m/s\].
     still: f64,
     bounds: Bounds,
+    /// Faces that are none.
+    hidden: [bool; 8],
 }
 
 /// The pair at one time: the frames (a's centre at its own displacement, b's at d and its own), and the rest.
@@ -151,7 +179,7 @@ enum Advance {
 }
 
 impl<'a> Search<'a> {
-    fn new(a: &'a Flier, b: &'a Flier, bounds: Bounds) -> Self {
+    fn new(a: &'a Flier, b: &'a Flier, bounds: Bounds, horizon: f64) -> Self {
         let d = b.path.frame.o - a.path.frame.o;
         let small = a.rect.half().min().min(b.rect.half().min());
         let scale = d.abs().max() + bounds.radii.0 + bounds.radii.1;
@@ -161,8 +189,9 @@ impl<'a> Search<'a> {
             d,
             tolerance: TOUCHING * scale,
             alike: ALIKE * small,
-            still: STILL * bounds.speeds(a, b),
+            still: (STILL * bounds.speeds(a, b)).max(TOUCHING * scale / horizon),
             bounds,
+            hidden: [false; 8],
         }
     }
 
@@ -177,7 +206,15 @@ impl<'a> Search<'a> {
         Now {
             frames: [frame_a, frame_b],
             paths: [path(&self.a.path, frame_a, change_a.motion), path(&self.b.path, frame_b, change_b.motion)],
-            faces: [ax, az, bx, bz],
+            faces: [ax, az, bx, bz].map(|face| self.unless_hidden(face)),
+        }
+    }
+
+    fn unless_hidden(&self, face: Separating) -> Separating {
+        if self.hidden[hidden_at(face.of_first, face.face)] {
+            Separating { gap: f64::NEG_INFINITY, ..face }
+        } else {
+            face
         }
     }
 

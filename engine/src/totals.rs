@@ -57,8 +57,8 @@ impl World {
                 Role::Fixed => 2,
             });
         }
-        for (a, b) in self.continuous.iter().flat_map(|state| state.lasting()) {
-            digest.word(u64::from(*a) << 32 | u64::from(*b));
+        for word in self.continuous.iter().flat_map(|state| state.words()) {
+            digest.word(word);
         }
         for word in self.sides.words() {
             digest.word(word);

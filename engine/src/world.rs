@@ -13,7 +13,7 @@ use crate::detect::sides::Sides;
 use crate::directory::Directory;
 use crate::error::{Fault, SceneError};
 use crate::load;
-use crate::plan::{MotionPlan, Plan};
+use crate::plan::{ExchangePlan, MotionPlan, Plan};
 use crate::push::Push;
 use crate::scene::{Detection, Kind, Scene};
 use crate::work::Work;
@@ -71,7 +71,9 @@ impl World {
         }
         let continuous = match plan.motion {
             MotionPlan::Stepped => None,
-            MotionPlan::Continuous { middling } => Some(Box::new(Continuous::new(middling, bodies.len()))),
+            MotionPlan::Continuous { middling } => {
+                Some(Box::new(Continuous::new(middling, plan.exchange == ExchangePlan::Impulse, bodies.len())))
+            }
         };
         Ok(World {
             continuous,

@@ -14,7 +14,8 @@ impl Continuous {
             FlightPlan::Forced { gravity, drag, .. } => Some(Pull { a: gravity, alpha: 0.0, drag }),
         };
         self.pulls.clear();
-        if forces.is_none() && world.pushes.is_empty() {
+        self.free.clear();
+        if forces.is_none() && world.pushes.is_empty() && self.lasting.is_empty() {
             return;
         }
         self.pulls.resize(world.bodies.len(), Pull::NONE);
@@ -45,6 +46,7 @@ impl Continuous {
         self.since[at] = self.now;
         self.prescribe(world, which, self.now);
         self.dirty.push(at as u32);
+        self.struck.push(at as u32);
     }
 
     /// Puts a prescribed body where it stands now, moving as it will until its next turn.

@@ -3,6 +3,7 @@
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
+use super::lasting::Key;
 use crate::impact_time::Touch;
 
 /// Something that will happen.
@@ -24,6 +25,10 @@ pub(super) enum What {
     Touch(Pair),
     /// A prescribed body turns a corner of its course, or back at the end of its swing.
     Turn(u32),
+    /// What is in lasting contact with a body is to be held anew.
+    Renew(u32),
+    /// Two rectangles come together where a seam hides the face, or part from an overlap: they are to be looked at again.
+    Look(Key),
 }
 
 /// Two rectangles and the face at which they touch.
@@ -39,7 +44,7 @@ pub(super) struct Pair {
 
 impl Pair {
     /// Bodies and rectangles: the order in which impacts of one instant are told.
-    pub(super) fn key(&self) -> (u32, u32, u32, u32) {
+    pub(super) fn key(&self) -> Key {
         (self.a, self.b, self.rects.0, self.rects.1)
     }
 }
@@ -49,14 +54,18 @@ impl What {
     fn bodies(&self) -> (u32, u32) {
         match *self {
             What::Touch(Pair { a, b, .. }) => (a, b),
-            What::Turn(body) => (body, body),
+            What::Turn(body) | What::Renew(body) => (body, body),
+            What::Look((a, b, ..)) => (a, b),
         }
     }
 
-    fn rank(&self) -> (u32, u32, u32, u32) {
+    /// What comes first of several at one time.
+    fn rank(&self) -> (Key, u8) {
         match *self {
-            What::Touch(pair) => pair.key(),
-            What::Turn(body) => (body, body, 0, 0),
+            What::Touch(pair) => (pair.key(), 0),
+            What::Turn(body) => ((body, body, 0, 0), 1),
+            What::Renew(body) => ((body, body, 0, 0), 2),
+            What::Look(key) => (key, 3),
         }
     }
 }

@@ -1,13 +1,17 @@
 //! Foreseeing: when a pair touches, and whom a body that was hit may meet next.
 
+use super::Continuous;
 use super::forecast::{Pair, What};
+use super::lasting::{BAND, Key};
 use super::neighbours::Bounds;
-use super::{Continuous, rest};
+use crate::area::Rect;
 use crate::bodies::{Bodies, Role};
 use crate::broad_phase::bounds::sweep;
-use crate::detect::overlap;
+use crate::detect::manifold::Placed;
+use crate::detect::touch::at_face;
+use crate::detect::{overlap, seams};
 use crate::flight::{Path, Pull};
-use crate::impact_time::{Flier, TOUCHING, first_touch};
+use crate::impact_time::{Flier, TOUCHING, first_open_touch, first_touch};
 use crate::work::Work;
 use crate::world::World;
 
@@ -15,14 +19,13 @@ use crate::world::World;
 /// there. Far above what rounding leaves after an impact, far below what can be seen.
 const OVERLAPPED: f64 = 1e-9;
 
+/// A stuck pair is looked at again no sooner than after this share of the segment.
+const LEAST_WAIT: f64 = 1.0 / 64.0;
+
 impl Continuous {
     /// Foresees the first touch of each two rectangles of a pair, within the segment.
     pub(super) fn foresee(&mut self, bodies: &Bodies, pulls: &[Pull], (i, j): (usize, usize), work: &mut Work) {
-        let key = (i.min(j) as u32, i.max(j) as u32);
-        if self.stuck.binary_search(&key).is_ok() {
-            return;
-        }
-        let (i, j) = (key.0 as usize, key.1 as usize);
+        let (i, j) = (i.min(j), i.max(j));
         let left = self.length - self.now;
         let at_present = |body: usize| {
             let path = Path::of(bodies, pulls, body);
@@ -30,6 +33,10 @@ impl Continuous {
             if late > 0.0 { path.after(late) } else { path }
         };
         let (one, two) = (at_present(i), at_present(j));
+        if self.stuck.binary_search(&(i as u32, j as u32)).is_ok() {
+            self.watch_parting(bodies, (i, &one), (j, &two), left);
+            return;
+        }
         for (k, rect_i) in bodies.rects_of(i).iter().enumerate() {
             for (l, rect_j) in bodies.rects_of(j).iter().enumerate() {
                 work.pairs_tested += 1;
@@ -39,22 +46,80 @@ impl Continuous {
                 }
                 let small = rect_i.half().min().min(rect_j.half().min());
                 if depth > OVERLAPPED * small {
-                    self.hold_stuck(key);
+                    self.hold_stuck((i as u32, j as u32));
+                    self.watch_parting(bodies, (i, &one), (j, &two), left);
                     return;
+                }
+                let key = (i as u32, j as u32, k as u32, l as u32);
+                if -depth <= BAND * small {
+                    self.suspect(key);
                 }
                 work.touches_sought += 1;
                 let (a, b) = (Flier { path: one, rect: *rect_i }, Flier { path: two, rect: *rect_j });
-                if let Some(touch) = first_touch(&a, &b, left) {
-                    if touch.speed < rest::REST_SPEED && self.resting.binary_search(&key).is_ok() {
-                        continue; // it is held there
-                    }
-                    let scale = (one.frame.o - two.frame.o).abs().max() + rect_i.radius() + rect_j.radius();
-                    let blur = if touch.speed > 0.0 { 16.0 * TOUCHING * scale / touch.speed } else { 0.0 };
-                    let pair = Pair { a: key.0, b: key.1, rects: (k as u32, l as u32), touch };
-                    self.forecast.expect(self.now + touch.time, blur, What::Touch(pair));
-                }
+                self.seek(bodies, key, (&a, &b), left);
             }
         }
+    }
+
+    /// Seeks the first touch of two rectangles.
+    fn seek(&mut self, bodies: &Bodies, key: Key, (a, b): (&Flier, &Flier), left: f64) {
+        let at = |(body, k): (u32, u32)| bodies.first_rect[body as usize] as usize + k as usize;
+        let (at_a, at_b) = (at((key.0, key.2)), at((key.1, key.3)));
+        let now = self.now;
+        let found = if bodies.seams.concern(at_a) || bodies.seams.concern(at_b) {
+            first_open_touch(a, b, left, |touch, [frame_a, frame_b]| {
+                let one = Placed { body: key.0 as usize, frame: frame_a, index: at_a, rect: &a.rect };
+                let two = Placed { body: key.1 as usize, frame: frame_b, index: at_b, rect: &b.rect };
+                let (reference, owner) = if touch.face_of_first { (one, two) } else { (two, one) };
+                let hidden = seams::hides(&bodies.seams, reference, owner, &at_face(reference, owner, touch.face));
+                if hidden && self.holds_lasting {
+                    self.forecast.expect(now + touch.time, 0.0, What::Look(key));
+                }
+                hidden
+            })
+        } else {
+            first_touch(a, b, left)
+        };
+        if let Some(touch) = found {
+            let scale = (a.path.frame.o - b.path.frame.o).abs().max() + a.radius() + b.radius();
+            let blur = if touch.speed > 0.0 { 16.0 * TOUCHING * scale / touch.speed } else { 0.0 };
+            let pair = Pair { a: key.0, b: key.1, rects: (key.2, key.3), touch };
+            self.forecast.expect(now + touch.time, blur, What::Touch(pair));
+        }
+    }
+
+    /// Looks again at a stuck pair when it can have parted at the earliest, or after a while.
+    fn watch_parting(&mut self, bodies: &Bodies, (i, one): (usize, &Path), (j, two): (usize, &Path), left: f64) {
+        let far = |body: usize| bodies.rects_of(body).iter().map(Rect::far).fold(0.0, f64::max);
+        let (mut deepest, parting) = (0.0_f64, one.closing(two, far(i), far(j), left));
+        for rect_i in bodies.rects_of(i) {
+            for rect_j in bodies.rects_of(j) {
+                deepest = deepest.max(overlap::depth(&one.frame, rect_i, &two.frame, rect_j));
+            }
+        }
+        if parting > deepest {
+            let wait = (deepest / parting * left).max(self.length * LEAST_WAIT);
+            self.forecast.expect(self.now + wait, 0.0, What::Look((i as u32, j as u32, 0, 0)));
+        }
+    }
+
+    /// Two rectangles are to be looked at again: whether they have parted, or whether they are in lasting contact.
+    pub(super) fn look(&mut self, world: &mut World, key: Key) {
+        let pair = (key.0, key.1);
+        let Ok(at) = self.stuck.binary_search(&pair) else {
+            self.suspect(key);
+            self.take_in(world);
+            return;
+        };
+        for body in [pair.0, pair.1] {
+            self.bring(&mut world.bodies, body as usize);
+        }
+        if !holds_together(&world.bodies, pair.0 as usize, pair.1 as usize) {
+            self.stuck.remove(at);
+        }
+        let pulls = core::mem::take(&mut self.pulls);
+        self.foresee(&world.bodies, &pulls, (pair.0 as usize, pair.1 as usize), &mut world.work);
+        self.pulls = pulls;
     }
 
     /// From now on the pair is treated once an iteration, until it parts.
@@ -64,21 +129,24 @@ impl Continuous {
         }
     }
 
-    /// Foresees anew what the changed bodies will meet.
+    /// Holds anew what was struck, and foresees anew what the changed bodies will meet.
     pub(super) fn foresee_dirty(&mut self, world: &mut World) {
-        if self.dirty.is_empty() {
-            return;
+        self.hold_struck(world);
+        while !self.dirty.is_empty() {
+            let mut dirty = core::mem::take(&mut self.dirty);
+            dirty.sort_unstable();
+            dirty.dedup();
+            let pulls = core::mem::take(&mut self.pulls);
+            for (k, body) in dirty.iter().enumerate() {
+                self.foresee_body(world, &pulls, *body as usize, &dirty[..k]);
+            }
+            self.pulls = pulls;
+            dirty.clear();
+            self.dirty = dirty;
+            if !self.close.is_empty() {
+                self.take_in(world);
+            }
         }
-        let mut dirty = core::mem::take(&mut self.dirty);
-        dirty.sort_unstable();
-        dirty.dedup();
-        let pulls = core::mem::take(&mut self.pulls);
-        for (k, body) in dirty.iter().enumerate() {
-            self.foresee_body(world, &pulls, *body as usize, &dirty[..k]);
-        }
-        self.pulls = pulls;
-        dirty.clear();
-        self.dirty = dirty;
     }
 
     /// Foresees anew what one body will meet; those in `done` have seen it already.

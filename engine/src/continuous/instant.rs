@@ -5,7 +5,7 @@
 //! the last flies off, as with gaps), while two blows that meet in one body at once are one impact.
 
 use super::forecast::Pair;
-use super::{Continuous, MOST_AT_ONE_INSTANT, rest};
+use super::{Continuous, MOST_AT_ONE_INSTANT, lasting};
 use crate::area::Rect;
 use crate::bodies::{Bodies, Motion};
 use crate::detect::manifold::{Manifold, Placed};
@@ -58,6 +58,7 @@ impl Continuous {
             for body in [pair.a as usize, pair.b as usize] {
                 if world.bodies.is_mobile(body) {
                     self.changed(body);
+                    self.struck.push(body as u32);
                 }
                 if !world.moves_finitely(body) {
                     world.report_fault(body);
@@ -111,8 +112,7 @@ impl Continuous {
     fn strike(&mut self, world: &mut World, group: &[Pair]) {
         let manifolds: Vec<Manifold> =
             group.iter().map(|pair| manifold_of(&world.bodies, pair, world.plan.detection)).collect();
-        let rests = rest::soften(self, world, &manifolds);
-        let softened = rests || group.iter().all(|pair| creeps(&world.bodies, pair));
+        let softened = lasting::soften(self, &world.bodies, &manifolds);
         let acted = match (&manifolds[..], softened) {
             ([manifold], false) => impulse::act(&mut world.bodies, manifold).is_some(),
             _ => {
@@ -123,13 +123,10 @@ impl Continuous {
                     return;
                 }
                 let points: Vec<together::Point> =
-                    manifolds.iter().flat_map(|m| rest::points(&world.bodies, m, softened)).collect();
+                    manifolds.iter().flat_map(|m| points(&world.bodies, m, softened)).collect();
                 together::exchange(&mut world.bodies, &points)
             }
         };
-        if rests {
-            rest::lay_down(self, world, group);
-        }
         if !acted {
             return;
         }
@@ -187,6 +184,15 @@ impl Continuous {
             self.hold_stuck((pair.a, pair.b));
         }
     }
+}
+
+/// The points of a manifold for the common solver; `softened`, without restitution.
+fn points(bodies: &Bodies, manifold: &Manifold, softened: bool) -> Vec<together::Point> {
+    let mut points = lasting::points(bodies, manifold);
+    if softened {
+        points.iter_mut().for_each(|point| point.surface.restitution = 0.0);
+    }
+    points
 }
 
 /// Moves the touches that share mobile bodies with the first one, directly or through others, to the front, in order; gives

@@ -5,7 +5,7 @@
 //! | a segment begins: what will touch is foreseen | [`Continuous::begin_segment`] |
 //! | the earliest instant: all impacts at it | [`Continuous::next_instant`] |
 //! | exchange there | [`instant`] |
-//! | what rests is held | [`rest`] |
+//! | contacts that last: which, and the forces that hold them | [`lasting`], [`hold`] |
 //! | the two bodies' future is foreseen again | [`Continuous::foresee`] |
 //! | the segment ends: every body flies to its end | [`Continuous::end_segment`] |
 //! | pairs that overlap for good are treated as stepped motion does | [`World::treat_stuck`] |
@@ -14,7 +14,7 @@
 //! speed moves about half its own size: then it meets few others and what is foreseen is seldom in vain. How an iteration
 //! is cut depends on speeds and sizes alone, neither on the order of creation nor on how pairs are found.
 //!
-//! **Finite work.** A pair that would bounce lower than [`rest::REST_HEIGHT`] of its size rests. A vertex that comes at
+//! **Finite work.** A pair that would bounce lower than [`lasting::REST_HEIGHT`] of its size is held. A vertex that comes at
 //! less than [`crate::impact_time::STILL`] of the speeds involved does not come. A body that is hit more than
 //! [`MOST_AT_ONE_INSTANT`] times without time going on, or at next to no speed, is jammed: that pair is treated once an iteration
 //! from then on.
@@ -22,9 +22,10 @@
 mod drive;
 mod forecast;
 mod foresight;
+mod hold;
 mod instant;
+mod lasting;
 mod neighbours;
-mod rest;
 
 use crate::bodies::{Bodies, Motion};
 use crate::broad_phase::Sweeping;
@@ -32,6 +33,7 @@ use crate::flight::{Path, Pull};
 use crate::step::Hit;
 use crate::world::World;
 use forecast::{Event, Forecast, Pair, What};
+use lasting::Key;
 use neighbours::Neighbours;
 
 /// How often a body may be hit at one instant before the pair is taken to be jammed: enough for a pile that settles,
@@ -67,8 +69,12 @@ pub(crate) struct Continuous {
     dirty: Vec<u32>,
     /// Pairs treated once an iteration, in order.
     stuck: Vec<(u32, u32)>,
-    /// Pairs at rest on each other.
-    resting: Vec<(u32, u32)>,
+    /// Whether contacts can last: forces of contact belong to the impulse exchange.
+    holds_lasting: bool,
+    /// Contacts that last, in order; those that may begin to; and the bodies in them that were struck.
+    lasting: Vec<Key>,
+    close: Vec<Key>,
+    struck: Vec<u32>,
     /// Hits not told yet, the next one last.
     untold: Vec<Hit>,
     /// Of each body, when it was last hit, and how often at that instant.
@@ -100,7 +106,7 @@ enum Phase {
 
 impl Continuous {
     /// Of a world of so many bodies, of such a size in the middle.
-    pub(crate) fn new(middling: Option<f64>, count: usize) -> Self {
+    pub(crate) fn new(middling: Option<f64>, holds_lasting: bool, count: usize) -> Self {
         Continuous {
             pulls: Vec::new(),
             free: Vec::new(),
@@ -113,7 +119,10 @@ impl Continuous {
             middling,
             dirty: Vec::new(),
             stuck: Vec::new(),
-            resting: Vec::new(),
+            holds_lasting,
+            lasting: Vec::new(),
+            close: Vec::new(),
+            struck: Vec::new(),
             untold: Vec::new(),
             hit_at: vec![(f64::NEG_INFINITY, 0); count],
             was_hit: Vec::new(),
@@ -132,9 +141,11 @@ impl Continuous {
         f64::from(self.segment.0) * self.length
     }
 
-    /// Pairs whose state decides how the world goes on.
-    pub(crate) fn lasting(&self) -> impl Iterator<Item = &(u32, u32)> {
-        self.stuck.iter().chain(&self.resting)
+    /// What decides how the world goes on besides its bodies, for the digest.
+    pub(crate) fn words(&self) -> impl Iterator<Item = u64> {
+        let word = |a: &u32, b: &u32| u64::from(*a) << 32 | u64::from(*b);
+        let lasting = self.lasting.iter().flat_map(move |(a, b, k, l)| [word(a, b), word(k, l)]);
+        self.stuck.iter().map(move |(a, b)| word(a, b)).chain(lasting)
     }
 
     /// How a body flies from now on.
@@ -242,7 +253,8 @@ impl Continuous {
         self.forecast.clear();
         self.neighbours.forget();
         self.begin_prescribed(world);
-        rest::hold(self, world);
+        self.hold_struck(world);
+        self.hold_all(world);
         let World { broad_phase, bodies, work, .. } = world;
         let pulls = core::mem::take(&mut self.pulls);
         let sweeping = Sweeping { pulls: &pulls, time: self.length };
@@ -251,6 +263,7 @@ impl Continuous {
         });
         self.pulls = pulls;
         self.dirty.clear();
+        self.take_in(world);
     }
 
     /// How many segments this iteration is cut into.
@@ -276,6 +289,7 @@ impl Continuous {
     fn next_instant(&mut self, world: &mut World) -> bool {
         let Some(first) = self.forecast.next_within(self.length) else { return false };
         self.now = first.time.max(self.now);
+        if std::env::var_os("DBG").is_some() { eprintln!("it {} seg {:?} now {:e} of {:e}: {:?} lasting {:?} stuck {:?}", world.iteration, self.segment, self.now, self.length, first.what, self.lasting, self.stuck); }
         match first.what {
             What::Touch(pair) => {
                 let mut instant = core::mem::take(&mut self.scratch.instant);
@@ -288,6 +302,8 @@ impl Continuous {
                 self.scratch.instant = instant;
             }
             What::Turn(at) => self.turn(world, at as usize),
+            What::Renew(body) => self.hold_those(world, &[body], hold::After::Rest),
+            What::Look(key) => self.look(world, key),
         }
         true
     }
@@ -350,6 +366,7 @@ impl World {
     /// A command is about to change a body: it is brought to where it is now, and its future is foreseen anew.
     pub(crate) fn interrupt(&mut self, body: usize) {
         let Some(mut state) = self.continuous.take() else { return };
+        state.struck.push(body as u32);
         if state.phase == Phase::Flying {
             state.bring(&mut self.bodies, body);
             state.changed(body);

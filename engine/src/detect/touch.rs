@@ -7,6 +7,7 @@
 //! threshold only says where, far above rounding (1e-16 each hit) and far below what a scene can mean.
 
 use super::manifold::{Manifold, Placed, Point, cut_to_face};
+use super::seams::{self, Seams};
 use super::{Contact, Face};
 use crate::area::{Rect, Vec2};
 
@@ -29,16 +30,42 @@ pub fn at_face(reference: Placed, owner: Placed, face: Face) -> Manifold {
     Manifold::new(owner.body, reference.body, face, depth, points, count)
 }
 
-/// The contact of two rectangles at the face that separates them best, or least overlaps: for those that rest.
+/// The contact of two rectangles that stand at each other: at the face that separates them best, or least overlaps, the
+/// points no further from it than a band; `None` when there are none. A face that a seam hides is passed over.
 #[must_use]
-pub fn at_nearest_face(one: Placed, two: Placed) -> Manifold {
+pub fn standing(seams: &Seams, one: Placed, two: Placed, band: f64) -> Option<Manifold> {
     let [x, z] = faces(one, two);
     let [other_x, other_z] = faces(two, one);
-    let all = [(one, two, x), (one, two, z), (two, one, other_x), (two, one, other_z)];
+    let mut all = [(one, two, x), (one, two, z), (two, one, other_x), (two, one, other_z)].map(Some);
+    if all.iter().flatten().any(|(_, _, (_, gap))| *gap > band) {
+        return None;
+    }
     let size = one.rect.half().min().min(two.rect.half().min());
-    let (reference, owner, (face, _)) =
-        all[1..].iter().fold(all[0], |best, next| if next.2.1 > best.2.1 + FLAT * size { *next } else { best });
-    at_face(reference, owner, face)
+    loop {
+        let mut best: Option<(usize, f64)> = None;
+        for (k, gap) in all.iter().enumerate().filter_map(|(k, way)| Some((k, way.as_ref()?.2.1))) {
+            if best.is_none_or(|(_, so_far)| gap > so_far + FLAT * size) {
+                best = Some((k, gap));
+            }
+        }
+        let (reference, owner, (face, gap)) = all[best?.0].take()?;
+        let points = within(band, cut_to_face(reference, owner, face));
+        let manifold = |(points, count)| Manifold::new(owner.body, reference.body, face, -gap, points, count);
+        match points.map(manifold) {
+            Some(manifold) if !seams::hides(seams, reference, owner, &manifold) => return Some(manifold),
+            _ => {}
+        }
+    }
+}
+
+/// Those of two points that are no further from their face than a band, and how many.
+fn within(band: f64, [first, second]: [Point; 2]) -> Option<([Point; 2], usize)> {
+    match (first.depth >= -band, second.depth >= -band) {
+        (true, true) => Some(([first, second], 2)),
+        (true, false) => Some(([first, second], 1)),
+        (false, true) => Some(([second, first], 1)),
+        (false, false) => None,
+    }
 }
 
 /// The faces of a reference that look at another rectangle, along x and z, and how far it is from each.

@@ -1,12 +1,13 @@
-//! Impacts at one instant that share a body: solved together, so that none comes first.
+//! Several points solved together, so that none comes first: impacts at one instant, and contacts that last.
 //!
-//! At every point k of every impact the normal impulse p_k ≥ 0 lets the bodies part no more slowly than Newton's law
-//! asks, u_k⁺ ≥ −e u_k⁻, and a point that pushes parts exactly so; friction opposes the slip that is left at the end,
-//! |p_t| ≤ μ p_n. All points are improved at once from the same motions (Jacobi), each by no more than its share of the
-//! bodies it pushes, so that a scene that is its own mirror image stays so to the last bit, whatever the order of creation.
+//! At every point the normal impulse p_n ≥ 0 lets the bodies part no more slowly than it asks, and a point that pushes
+//! parts exactly so; friction opposes the slip that is left, |p_t| ≤ μ p_n. For impacts the points ask what Newton's law
+//! does, u_n⁺ ≥ −e u_n⁻; contacts that last ask the same of accelerations, with forces in place of impulses. All
+//! points are improved at once from the same motions (Jacobi), each by no more than its share of the bodies it pushes, so that
+//! a scene that is its own mirror image stays so to the last bit, whatever the order of creation.
 //!
-//! Should that create energy (it can, with friction, as at a single point), restitution is lowered until it does not:
-//! with e = 0 it never does.
+//! Should impacts create energy (they can, with friction, as at a single point), restitution is lowered until they do not:
+//! with e = 0 they never do.
 
 use super::impact::Surface;
 use super::impulse::{Arms, Inverse, apply, relative_velocity};
@@ -14,7 +15,7 @@ use crate::area::Vec2;
 use crate::bodies::{Bodies, Motion};
 use crate::frame::perp;
 
-/// One point of one impact.
+/// One point of one contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Point {
     /// The body that the normal points out of.
@@ -29,11 +30,28 @@ pub struct Point {
     pub surface: Surface,
 }
 
-/// The impulses of a point: along n, and along t = −perp(n).
+/// What a point asks for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Demand {
+    /// Along n the two are to part at least so fast, and along t to pass each other so.
+    pub(crate) wanted: Impulse,
+    pub(crate) grip: Grip,
+}
+
+/// What friction does at a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Grip {
+    /// It holds, with up to μ times the normal impulse.
+    Holds(f64),
+    /// It drags: p_t is this many times p_n.
+    Drags(f64),
+}
+
+/// Impulses or forces at a point, or velocities or accelerations there: along n, and along t = −perp(n).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Impulse {
-    n: f64,
-    t: f64,
+pub(crate) struct Impulse {
+    pub(crate) n: f64,
+    pub(crate) t: f64,
 }
 
 /// Rounds of improvement at most. Each point of two equal bodies gains a digit in about two; what a great ratio of masses
@@ -46,6 +64,10 @@ const SETTLED: f64 = 2e-17;
 /// Halvings of e when the impacts would create energy.
 const HALVINGS: u32 = 40;
 
+/// Friction that drags leaves at least this share of the normal response: more, and pushing would draw the bodies together
+/// (Painlevé's paradox).
+const LEAST_RESPONSE: f64 = 0.05;
+
 /// Exchanges motion at all points at once. `false` when nothing approaches at any of them.
 pub fn exchange(bodies: &mut Bodies, points: &[Point]) -> bool {
     let before: Vec<Vec2> = points.iter().map(|p| relative_velocity(bodies, p.i, p.j, &p.arms)).collect();
@@ -55,7 +77,7 @@ pub fn exchange(bodies: &mut Bodies, points: &[Point]) -> bool {
     let start = involved(bodies, points);
     let mut attempt = |restitution: f64| {
         restore(bodies, &start);
-        let impulses = solve(bodies, points, &before, restitution);
+        let impulses = solve(bodies, points, &newton(points, &before, restitution));
         gain(bodies, points, &before, &impulses)
     };
     if attempt(1.0) > 0.0 {
@@ -67,6 +89,15 @@ pub fn exchange(bodies: &mut Bodies, points: &[Point]) -> bool {
         attempt(low);
     }
     true
+}
+
+/// Newton's law at every point: to part at e times the approach, restitution counting by `share`.
+fn newton(points: &[Point], before: &[Vec2], share: f64) -> Vec<Demand> {
+    let demand = |(p, u): (&Point, &Vec2)| {
+        let n = -u.dot(&p.n).min(0.0) * p.surface.restitution * share;
+        Demand { wanted: Impulse { n, t: 0.0 }, grip: Grip::Holds(p.surface.friction) }
+    };
+    points.iter().zip(before).map(demand).collect()
 }
 
 /// The mobile bodies among the points', once each, with their motions.
@@ -96,24 +127,34 @@ fn gain(bodies: &Bodies, points: &[Point], before: &[Vec2], impulses: &[Impulse]
     work - 1e-14 * scale
 }
 
-/// Lets impulses grow at all points until each has what it asks for; restitution counts by `share`.
-fn solve(bodies: &mut Bodies, points: &[Point], before: &[Vec2], share: f64) -> Vec<Impulse> {
-    let touching = |body: usize| points.iter().filter(|p| p.i == body || p.j == body).count();
-    let weights: Vec<f64> = points
-        .iter()
-        .map(|p| {
-            let mobile = [p.i, p.j].into_iter().filter(|body| bodies.is_mobile(*body));
-            1.0 / mobile.map(touching).max().unwrap_or(1) as f64
-        })
-        .collect();
-    let scale = before.iter().map(|u| u.norm()).fold(0.0, f64::max);
-    let mut impulses = vec![Impulse::default(); points.len()];
+/// A point with what is the same in all rounds.
+struct Row<'a> {
+    point: &'a Point,
+    inverse: Inverse,
+    wanted: Impulse,
+    grip: Grip,
+    /// Its share of the bodies it pushes.
+    weight: f64,
+    /// u_n per normal impulse (with the friction that it drags along), u_t per tangential impulse.
+    k_nn: f64,
+    k_tt: f64,
+}
+
+/// Lets impulses grow at all points until each has what it asks for, and applies them.
+pub(crate) fn solve(bodies: &mut Bodies, points: &[Point], demands: &[Demand]) -> Vec<Impulse> {
+    let rows = rows(bodies, points, demands);
+    let lacks = |row: &Row| {
+        let u = relative_velocity(bodies, row.point.i, row.point.j, &row.point.arms);
+        (u - row.point.n * row.wanted.n).norm().max(row.wanted.t.abs())
+    };
+    let scale = rows.iter().map(lacks).fold(0.0, f64::max);
+    let mut impulses = vec![Impulse::default(); rows.len()];
+    let mut steps: Vec<(Vec2, f64)> = Vec::with_capacity(rows.len());
     for _ in 0..MOST_ROUNDS {
-        let steps: Vec<(Vec2, f64)> = (0..points.len())
-            .map(|k| improve(bodies, &points[k], before[k], share, weights[k], &mut impulses[k]))
-            .collect();
-        for (p, (step, _)) in points.iter().zip(&steps) {
-            apply(bodies, p.i, p.j, &Inverse::of(bodies, p.i, p.j), &p.arms, *step);
+        steps.clear();
+        steps.extend(rows.iter().zip(&mut impulses).map(|(row, so_far)| improve(bodies, row, so_far)));
+        for (row, (step, _)) in rows.iter().zip(&steps) {
+            apply(bodies, row.point.i, row.point.j, &row.inverse, &row.point.arms, *step);
         }
         if steps.iter().all(|(_, change)| *change <= SETTLED * scale) {
             break;
@@ -122,23 +163,46 @@ fn solve(bodies: &mut Bodies, points: &[Point], before: &[Vec2], share: f64) -> 
     impulses
 }
 
+fn rows<'a>(bodies: &Bodies, points: &'a [Point], demands: &[Demand]) -> Vec<Row<'a>> {
+    let touching = |body: usize| points.iter().filter(|p| p.i == body || p.j == body).count();
+    let row = |(point, demand): (&'a Point, &Demand)| {
+        let Point { i, j, n, arms, .. } = point;
+        let (inverse, t) = (Inverse::of(bodies, *i, *j), -perp(*n));
+        let mobile = [*i, *j].into_iter().filter(|body| bodies.is_mobile(*body));
+        let (k_nn, k_nt) = (inverse.response(arms, *n, arms, *n), inverse.response(arms, *n, arms, t));
+        let (grip, k_nn) = match demand.grip {
+            Grip::Drags(share) => {
+                let bound = (LEAST_RESPONSE - 1.0) * k_nn;
+                let share = if share * k_nt < bound { bound / k_nt } else { share };
+                (Grip::Drags(share), k_nn + share * k_nt)
+            }
+            Grip::Holds(_) => (demand.grip, k_nn),
+        };
+        Row {
+            point,
+            inverse,
+            wanted: demand.wanted,
+            grip,
+            weight: 1.0 / mobile.map(touching).max().unwrap_or(1) as f64,
+            k_nn,
+            k_tt: inverse.response(arms, t, arms, t),
+        }
+    };
+    points.iter().zip(demands).map(row).collect()
+}
+
 /// What a point adds to its impulse, seeing the motions as they are; and how much velocity that is.
-fn improve(bodies: &Bodies, p: &Point, before: Vec2, share: f64, weight: f64, so_far: &mut Impulse) -> (Vec2, f64) {
-    let inverse = Inverse::of(bodies, p.i, p.j);
+fn improve(bodies: &Bodies, row: &Row, so_far: &mut Impulse) -> (Vec2, f64) {
+    let Row { point: p, wanted, grip, weight, k_nn, k_tt, .. } = row;
     let t = -perp(p.n);
     let u = relative_velocity(bodies, p.i, p.j, &p.arms);
-    let k_nn = inverse.response(&p.arms, p.n, &p.arms, p.n);
-    let approach = before.dot(&p.n).min(0.0);
-    let wanted = -approach * p.surface.restitution * share;
-    let n = (so_far.n + weight * (wanted - u.dot(&p.n)) / k_nn).max(0.0);
-    let mut change = Impulse { n: n - so_far.n, t: 0.0 };
-    if p.surface.friction > 0.0 {
-        let k_tt = inverse.response(&p.arms, t, &p.arms, t);
-        let most = p.surface.friction * n;
-        let along = (so_far.t - weight * u.dot(&t) / k_tt).clamp(-most, most);
-        change.t = along - so_far.t;
-        so_far.t = along;
-    }
-    so_far.n = n;
-    (p.n * change.n + t * change.t, k_nn * change.n.abs().max(change.t.abs()))
+    let n = (so_far.n + weight * (wanted.n - u.dot(&p.n)) / k_nn).max(0.0);
+    let along = match grip {
+        Grip::Holds(0.0) => 0.0,
+        Grip::Holds(friction) => (so_far.t + weight * (wanted.t - u.dot(&t)) / k_tt).clamp(-friction * n, friction * n),
+        Grip::Drags(share) => share * n,
+    };
+    let change = Impulse { n: n - so_far.n, t: along - so_far.t };
+    *so_far = Impulse { n, t: along };
+    (p.n * change.n + t * change.t, (k_nn * change.n.abs()).max(k_tt * change.t.abs()))
 }

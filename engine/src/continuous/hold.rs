@@ -1,0 +1,259 @@
+//! Holding what is in lasting contact: constant forces over a span of time, such that nothing goes into anything.
+//!
+//! At every point of contact the gap at the end of the span is to be no less than nothing:
+//!
+//! ```text
+//! g(T) = g + u_n T + ½ (a_n + drift) T²  ≥  0,      f ≥ 0,   f > 0 only where g(T) = 0
+//! ```
+//!
+//! linear in the forces f, so that it is the problem that simultaneous impacts pose, for accelerations in place of
+//! velocities ([`together`]). What the straight formula leaves out, because bodies turn, is made up for by shooting: g(T) is
+//! computed from the flight, and where it comes out negative the point asks for that much more. Between a contact held so and
+//! the face there opens a gap of at most [`HOP`]; where it would be more the span is halved. Friction holds within its cone
+//! or drags against the slip, and a span ends where slip does. At its end the little approach that is left is taken out, without
+//! restitution. So energy is never made, flat rest is exact, and the search for the next impact watches all the while.
+
+use super::Continuous;
+use super::forecast::What;
+use super::lasting::{Key, Moving, REST_HEIGHT, standing};
+use crate::area::{Rect, Vec2};
+use crate::bodies::{Bodies, Motion};
+use crate::detect::Face;
+use crate::exchange::impact::Surface;
+use crate::exchange::together::{self, Demand, Grip, Impulse};
+use crate::flight::{Path, turned};
+use crate::impact_time::TOUCHING;
+use crate::world::World;
+
+/// A gap that opens under a held contact, as a share of the smaller rectangle's half size.
+const HOP: f64 = 1e-7;
+
+/// Halvings of a span at most.
+const SHORTENINGS: u32 = 12;
+
+/// Shots at the end of a span: each leaves about the square of what the last one did.
+const SHOTS: u32 = 4;
+
+/// Slip that friction would end within this share of the span has ended.
+const ENDED: f64 = 1e-6;
+
+/// What came before contacts are held anew.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum After {
+    /// A span in which they were held: what approach there is comes from that.
+    Rest,
+    /// A blow, or a command: what approaches will be an impact.
+    Blow,
+}
+
+/// A point of contact that is to be held.
+struct Support {
+    moving: Moving,
+    /// The point of the owner, in its frame, and the face of the reference.
+    vertex: Vec2,
+    face: Face,
+    rect: Rect,
+    /// The gap now, and half the size of the smaller rectangle \[m\].
+    gap: f64,
+    size: f64,
+    /// A gap this small is none \[m\].
+    tolerance: f64,
+    /// The normal acceleration it asks for \[m/s²\].
+    ask: f64,
+    /// Whether slip counts as ended.
+    sticks: bool,
+    /// The force that came out, over the masses it moves, and the acceleration there \[m/s²\].
+    force: Impulse,
+    acceleration: Impulse,
+}
+
+impl Support {
+    /// The gap after some time, as the bodies will fly \[m\].
+    fn gap_after(&self, state: &Continuous, bodies: &Bodies, time: f64) -> f64 {
+        let (i, j) = (self.moving.point.i, self.moving.point.j);
+        let after = |body: usize| Path::of(bodies, &state.pulls, body).change(time);
+        let (one, two) = (after(i), after(j));
+        let frame_i = turned(&bodies.frame[i], Vec2::zeros(), one.turn);
+        let frame_j = turned(&bodies.frame[j], Vec2::zeros(), two.turn);
+        let d = (bodies.frame[j].o - bodies.frame[i].o) + (two.shift - one.shift);
+        -self.face.depth_of(&self.rect, frame_i.inward(d + frame_j.outward(self.vertex)))
+    }
+
+    /// How far it is off the face at most over a span, beyond what it is now \[m\]: a cubic that begins and ends at nothing is
+    /// greatest at two thirds, any other at its end.
+    fn hop(&self, state: &Continuous, bodies: &Bodies, span: f64) -> f64 {
+        let at = |share: f64| self.gap_after(state, bodies, share * span);
+        at(2.0 / 3.0).max(at(1.0)) - self.gap.max(0.0)
+    }
+
+    /// What it asks of the forces over a span: that the gap be closed at its end and no more, and that slip cease.
+    fn demand(&self, span: f64) -> Demand {
+        let Moving { point, u, drift } = self.moving;
+        let friction = point.surface.friction;
+        let grip = match u.t {
+            t if self.sticks || friction == 0.0 || t == 0.0 => Grip::Holds(friction),
+            t => Grip::Drags(if t > 0.0 { -friction } else { friction }),
+        };
+        Demand { wanted: Impulse { n: self.ask - drift.n, t: -u.t / span - drift.t }, grip }
+    }
+
+    /// When the slip that friction drags against will have ended \[s\].
+    fn slip_end(&self) -> Option<f64> {
+        let (u, a) = (self.moving.u.t, self.acceleration.t);
+        let drags = !self.sticks && self.moving.point.surface.friction > 0.0 && self.force.n > 0.0;
+        (drags && u * a < 0.0).then(|| -u / a)
+    }
+}
+
+/// Holds the contacts of a cluster from now on.
+pub(super) fn hold(state: &mut Continuous, world: &mut World, cluster: &[Key], after: After) {
+    let mut bodies_of: Vec<usize> = cluster.iter().flat_map(|key| [key.0 as usize, key.1 as usize]).collect();
+    bodies_of.sort_unstable();
+    bodies_of.dedup();
+    for body in &bodies_of {
+        state.bring(&mut world.bodies, *body);
+    }
+    let movers: Vec<usize> = bodies_of.iter().copied().filter(|body| world.bodies.is_mobile(*body)).collect();
+    state.allow_pulls(world.bodies.len());
+    for body in &movers {
+        state.pulls[*body] = state.free[*body];
+    }
+    let mut supports = supports(state, &mut world.bodies, cluster, after);
+    let left = state.length - state.now;
+    let span = if supports.is_empty() || left <= 0.0 {
+        left
+    } else {
+        plan(state, &mut world.bodies, &mut supports, &movers, left)
+    };
+    for body in &movers {
+        state.changed(*body);
+    }
+    if let (true, Some(first)) = (span < left, movers.first()) {
+        state.forecast.expect(state.now + span, 0.0, What::Renew(*first as u32));
+    }
+}
+
+/// The points of those contacts of a cluster that still touch. What approaches after a span is stopped there; what approaches
+/// after a blow is left to strike.
+fn supports(state: &mut Continuous, bodies: &mut Bodies, cluster: &[Key], after: After) -> Vec<Support> {
+    let mut supports: Vec<Support> = Vec::with_capacity(2 * cluster.len());
+    for key in cluster {
+        let Some((manifold, size)) = standing(bodies, *key, 4.0 * HOP) else {
+            state.let_part(*key);
+            continue;
+        };
+        let all = Moving::all(bodies, &manifold);
+        let moves = |m: &Moving| m.u.n * m.u.n > 2.0 * REST_HEIGHT * size * m.strength(state, bodies);
+        if after == After::Blow && all.iter().any(moves) {
+            state.let_part(*key);
+            continue;
+        }
+        let of_first = manifold.reference == key.0 as usize;
+        let rect = bodies.rects_of(manifold.reference)[if of_first { key.2 } else { key.3 } as usize];
+        let d = bodies.frame[manifold.owner].o - bodies.frame[manifold.reference].o;
+        supports.extend(all.into_iter().zip(manifold.points()).map(|(moving, point)| Support {
+            moving,
+            vertex: point.vertex,
+            face: manifold.face,
+            rect,
+            gap: -point.depth,
+            size,
+            tolerance: TOUCHING * (d.abs().max() + moving.point.arms.r_i.norm() + moving.point.arms.r_j.norm()),
+            ask: 0.0,
+            sticks: false,
+            force: Impulse::default(),
+            acceleration: Impulse::default(),
+        }));
+    }
+    if after == After::Rest {
+        stop(bodies, &mut supports);
+    }
+    supports
+}
+
+/// Takes out what approach is left at the points, without restitution or friction.
+fn stop(bodies: &mut Bodies, supports: &mut [Support]) {
+    let surface = Surface { restitution: 0.0, friction: 0.0 };
+    let points: Vec<together::Point> = supports.iter().map(|s| together::Point { surface, ..s.moving.point }).collect();
+    together::exchange(bodies, &points);
+    for support in supports {
+        support.moving = Moving::of(bodies, support.moving.point);
+    }
+}
+
+/// Finds forces, and the span of time for which they are good, at most what is left; sets what acts on the movers.
+fn plan(state: &mut Continuous, bodies: &mut Bodies, supports: &mut [Support], movers: &[usize], left: f64) -> f64 {
+    let mut span = left;
+    for _ in 0..SHORTENINGS {
+        for support in supports.iter_mut() {
+            support.ask = -2.0 * (support.gap.max(0.0) + support.moving.u.n * span) / (span * span);
+        }
+        push(state, bodies, supports, movers, span);
+        if supports.iter().any(|s| s.slip_end().is_some_and(|end| end < ENDED * left)) {
+            supports.iter_mut().for_each(|s| s.sticks |= s.slip_end().is_some_and(|end| end < ENDED * left));
+            continue;
+        }
+        let ends = supports.iter().filter_map(Support::slip_end).fold(f64::INFINITY, f64::min);
+        if ends < span * (1.0 - ENDED) {
+            span = ends;
+            continue;
+        }
+        for _ in 0..SHOTS {
+            if !shoot(state, bodies, supports, span) {
+                break;
+            }
+            push(state, bodies, supports, movers, span);
+        }
+        let off = |s: &Support| s.force.n > 0.0 && s.hop(state, bodies, span) > HOP * s.size;
+        if !supports.iter().any(off) {
+            break;
+        }
+        span *= 0.5;
+    }
+    span
+}
+
+/// Lets points that would go in by the end of the span ask for more; whether there was one.
+fn shoot(state: &Continuous, bodies: &Bodies, supports: &mut [Support], span: f64) -> bool {
+    let mut any = false;
+    for support in supports {
+        let gap = support.gap_after(state, bodies, span);
+        if gap < -support.tolerance {
+            support.ask += 2.0 * (2.0 * support.tolerance - gap) / (span * span);
+            any = true;
+        }
+    }
+    any
+}
+
+/// Solves for the forces that give every point what it asks for, and lets them act.
+fn push(state: &mut Continuous, bodies: &mut Bodies, supports: &mut [Support], movers: &[usize], span: f64) {
+    let points: Vec<together::Point> = supports.iter().map(|s| s.moving.point).collect();
+    let demands: Vec<Demand> = supports.iter().map(|s| s.demand(span)).collect();
+    // The solver sees accelerations where it looks for velocities, for as long as it takes.
+    let mut involved: Vec<usize> = points.iter().flat_map(|p| [p.i, p.j]).chain(movers.iter().copied()).collect();
+    involved.sort_unstable();
+    involved.dedup();
+    let motions: Vec<Motion> = involved.iter().map(|body| bodies.motion[*body]).collect();
+    for &body in &involved {
+        let path = Path::of(bodies, &state.free, body);
+        let falls = Motion { v: path.acceleration(), omega: path.angular_acceleration() };
+        bodies.motion[body] = if bodies.is_mobile(body) { falls } else { Motion::default() };
+    }
+    let forces = together::solve(bodies, &points, &demands);
+    for (support, force) in supports.iter_mut().zip(forces) {
+        let now = Moving::of(bodies, support.moving.point).u;
+        let drift = support.moving.drift;
+        support.force = force;
+        support.acceleration = Impulse { n: now.n + drift.n, t: now.t + drift.t };
+    }
+    let accelerations: Vec<Motion> = movers.iter().map(|body| bodies.motion[*body]).collect();
+    for (body, motion) in involved.into_iter().zip(motions) {
+        bodies.motion[body] = motion;
+    }
+    for (&body, acceleration) in movers.iter().zip(accelerations) {
+        let (drag, motion) = (state.free[body].drag, bodies.motion[body]);
+        state.pulls[body].a = acceleration.v + motion.v * drag.0;
+        state.pulls[body].alpha = acceleration.omega + motion.omega * drag.1;
+    }
+}
