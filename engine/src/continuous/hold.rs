@@ -68,6 +68,11 @@ struct Support {
 }
 
 impl Support {
+    /// Whether it is off its face and on its way there: it will strike, and needs no force before.
+    fn comes(&self) -> bool {
+        self.gap > 4.0 * self.tolerance && self.moving.u.n < 0.0
+    }
+
     /// The gap after some time, as the bodies will fly \[m\].
     fn gap_after(&self, state: &Continuous, bodies: &Bodies, time: f64) -> f64 {
         let (i, j) = (self.moving.point.i, self.moving.point.j);
@@ -165,6 +170,7 @@ fn supports(state: &mut Continuous, bodies: &mut Bodies, cluster: &[Key], after:
             acceleration: Impulse::default(),
         }));
     }
+    supports.retain(|s| !s.comes());
     if after == After::Rest {
         stop(bodies, &mut supports);
     }
@@ -210,6 +216,7 @@ fn plan(state: &mut Continuous, bodies: &mut Bodies, supports: &mut [Support], m
         }
         span *= 0.5;
     }
+    if std::env::var_os("DBG").is_some() { for s in supports.iter() { eprintln!("   span {span:e} left {left:e} gap {:e} u {:?} a {:?} f {:?} sticks {} end {:?} face {:?} v {:?} ask {:e}", s.gap, s.moving.u, s.acceleration, s.force, s.sticks, s.slip_end(), s.face, s.vertex, s.ask); } }
     span
 }
 
