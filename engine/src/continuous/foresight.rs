@@ -137,6 +137,9 @@ impl Continuous {
             dirty.sort_unstable();
             dirty.dedup();
             let pulls = core::mem::take(&mut self.pulls);
+            if self.middling.is_some() {
+                self.enter_all(&world.bodies, &pulls, &dirty);
+            }
             for (k, body) in dirty.iter().enumerate() {
                 self.foresee_body(world, &pulls, *body as usize, &dirty[..k]);
             }
@@ -147,6 +150,17 @@ impl Continuous {
                 self.take_in(world);
             }
         }
+    }
+
+    /// Tells the grid where changed bodies go now: all of them before any asks for its neighbours, for two that changed at one
+    /// instant may be each other's.
+    fn enter_all(&mut self, bodies: &Bodies, pulls: &[Pull], changed: &[u32]) {
+        let mut neighbours = core::mem::replace(&mut self.neighbours, super::Neighbours::new(1.0, 0));
+        neighbours.build(bodies, |body| self.swept(bodies, pulls, body));
+        for body in changed.iter().map(|body| *body as usize).filter(|body| !bodies.rects_of(*body).is_empty()) {
+            neighbours.enter(body, self.swept(bodies, pulls, body));
+        }
+        self.neighbours = neighbours;
     }
 
     /// Foresees anew what one body will meet; those in `done` have seen it already.
@@ -167,8 +181,6 @@ impl Continuous {
         }
         let mut neighbours = core::mem::replace(&mut self.neighbours, super::Neighbours::new(1.0, 0));
         let mut found = core::mem::take(&mut self.scratch.found);
-        neighbours.build(bodies, |other| self.swept(bodies, pulls, other));
-        neighbours.enter(body, self.swept(bodies, pulls, body));
         neighbours.of(body, bodies, &mut found);
         for &other in &found {
             if (mobile || bodies.is_mobile(other as usize)) && done.binary_search(&other).is_err() {
