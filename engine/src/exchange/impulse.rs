@@ -76,6 +76,15 @@ pub(super) fn apply(bodies: &mut Bodies, i: usize, j: usize, inverse: &Inverse, 
     bodies.motion[j].omega += cross(at.r_j, p) * inverse.moment_j;
 }
 
+/// Applies two impulses as one, so that it makes no difference which end of a face is called the first.
+fn apply_both(bodies: &mut Bodies, (i, j): (usize, usize), inverse: &Inverse, at: &[Arms; 2], p: [Vec2; 2]) {
+    let (sum, [one, two]) = (p[0] + p[1], at);
+    bodies.motion[i].v -= sum * inverse.mass_i;
+    bodies.motion[i].omega -= (cross(one.r_i, p[0]) + cross(two.r_i, p[1])) * inverse.moment_i;
+    bodies.motion[j].v += sum * inverse.mass_j;
+    bodies.motion[j].omega += (cross(one.r_j, p[0]) + cross(two.r_j, p[1])) * inverse.moment_j;
+}
+
 /// Exchanges motion at the points of a manifold; gives the normal (out of the reference) and the middle of the points,
 /// or `None` when nothing approaches.
 ///
@@ -120,15 +129,14 @@ fn settle_rounding(
         true => -restitution * before[k].min(0.0) - relative_velocity(bodies, i, j, &points[k]).dot(&n),
         false => 0.0,
     });
+    // Two points of a face share what they push, and together push the bodies straight; one alone turns them too.
     let both = pushed[0] > 0.0 && pushed[1] > 0.0;
-    for k in (0..2).filter(|k| pushed[*k] > 0.0) {
-        // Two points of a face share what they push, and together push the bodies straight; one alone turns them too.
-        let p = match both {
-            true => 0.25 * (rest[0] + rest[1]) / (inverse.mass_i + inverse.mass_j),
-            false => rest[k] / inverse.response(&points[k], n, &points[k], n),
-        };
-        apply(bodies, i, j, &inverse, &points[k], n * p);
-    }
+    let share = [0, 1].map(|k| match (both, pushed[k] > 0.0) {
+        (true, _) => 0.25 * (rest[0] + rest[1]) / (inverse.mass_i + inverse.mass_j),
+        (false, true) => rest[k] / inverse.response(&points[k], n, &points[k], n),
+        (false, false) => 0.0,
+    });
+    apply_both(bodies, (i, j), &inverse, points, share.map(|p| n * p));
 }
 
 /// Exchanges motion at one or two points, `n` pointing from i to j. `false` when the bodies are parting at every
@@ -163,9 +171,7 @@ pub fn exchange(bodies: &mut Bodies, (i, j): (usize, usize), n: Vec2, points: &[
             let u_t = relative_velocity(bodies, i, j, &mean).dot(&t);
             let p = face.impulse(u_t, u_n, surface);
             apply(bodies, i, j, &inverse, &mean, t * p.t);
-            for (at, p_n) in ends.iter().zip(p.n) {
-                apply(bodies, i, j, &inverse, at, n * p_n);
-            }
+            apply_both(bodies, (i, j), &inverse, &ends, p.n.map(|p_n| n * p_n));
             if surface.friction == 0.0 {
                 settle_rounding(bodies, (i, j), n, &ends, (u_n, p.n), surface.restitution);
             }
