@@ -16,6 +16,7 @@
 use super::Continuous;
 use super::forecast::What;
 use super::lasting::{Key, Moving, REST_HEIGHT, standing};
+use super::settle;
 use crate::area::{Rect, Vec2};
 use crate::bodies::{Bodies, Motion};
 use crate::detect::Face;
@@ -112,14 +113,13 @@ impl Support {
 
 /// Holds the contacts of a cluster from now on.
 pub(super) fn hold(state: &mut Continuous, world: &mut World, cluster: &[Key], after: After) {
-    let mut bodies_of: Vec<usize> = cluster.iter().flat_map(|key| [key.0 as usize, key.1 as usize]).collect();
-    bodies_of.sort_unstable();
-    bodies_of.dedup();
+    let bodies_of = bodies_of(cluster);
     for body in &bodies_of {
         state.bring(&mut world.bodies, *body);
     }
     let movers: Vec<usize> = bodies_of.iter().copied().filter(|body| world.bodies.is_mobile(*body)).collect();
     state.allow_pulls(world.bodies.len());
+    settle::energy(state, &mut world.bodies, &bodies_of);
     for body in &movers {
         state.pulls[*body] = state.free[*body];
     }
@@ -136,6 +136,19 @@ pub(super) fn hold(state: &mut Continuous, world: &mut World, cluster: &[Key], a
     if let (true, Some(first)) = (span < left, movers.first()) {
         state.forecast.expect(state.now + span, 0.0, What::Renew(*first as u32));
     }
+}
+
+/// Puts right at the end of a span what its forces have left undone: energy that they made, approach at the points.
+pub(super) fn settle(state: &mut Continuous, bodies: &mut Bodies, cluster: &[Key]) {
+    settle::energy(state, bodies, &bodies_of(cluster));
+    supports(state, bodies, cluster, After::Rest);
+}
+
+fn bodies_of(cluster: &[Key]) -> Vec<usize> {
+    let mut bodies: Vec<usize> = cluster.iter().flat_map(|key| [key.0 as usize, key.1 as usize]).collect();
+    bodies.sort_unstable();
+    bodies.dedup();
+    bodies
 }
 
 /// The points of those contacts of a cluster that still touch. What approaches after a span is stopped there; what approaches
@@ -216,7 +229,22 @@ fn plan(state: &mut Continuous, bodies: &mut Bodies, supports: &mut [Support], m
         }
         span *= 0.5;
     }
-    if std::env::var_os("DBG").is_some() { for s in supports.iter() { eprintln!("   span {span:e} left {left:e} gap {:e} u {:?} a {:?} f {:?} sticks {} end {:?} face {:?} v {:?} ask {:e}", s.gap, s.moving.u, s.acceleration, s.force, s.sticks, s.slip_end(), s.face, s.vertex, s.ask); } }
+    if std::env::var_os("DBG").is_some() {
+        for s in supports.iter() {
+            eprintln!(
+                "   span {span:e} left {left:e} gap {:e} u {:?} a {:?} f {:?} sticks {} end {:?} face {:?} v {:?} ask {:e}",
+                s.gap,
+                s.moving.u,
+                s.acceleration,
+                s.force,
+                s.sticks,
+                s.slip_end(),
+                s.face,
+                s.vertex,
+                s.ask
+            );
+        }
+    }
     span
 }
 

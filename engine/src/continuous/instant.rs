@@ -5,7 +5,7 @@
 //! the last flies off, as with gaps), while two blows that meet in one body at once are one impact.
 
 use super::forecast::Pair;
-use super::{Continuous, MOST_AT_ONE_INSTANT, lasting};
+use super::{Continuous, lasting};
 use crate::area::Rect;
 use crate::bodies::{Bodies, Motion};
 use crate::detect::manifold::{Manifold, Placed};
@@ -17,19 +17,6 @@ use crate::relocate::{self, separate};
 use crate::scene::Detection;
 use crate::step::Hit;
 use crate::world::{BodyId, World};
-
-/// A touch at less than this share of the speeds at which the two pass each other moves nothing that can be seen; it is
-/// without restitution. So a corner that rattles while its body slides comes down in a few touches.
-const CREEPING: f64 = 1e-6;
-
-fn creeps(bodies: &Bodies, pair: &Pair) -> bool {
-    let turning = |body: u32| {
-        let rects = bodies.rects_of(body as usize);
-        bodies.motion[body as usize].omega.abs() * rects.iter().map(Rect::far).fold(0.0, f64::max)
-    };
-    let passing = (bodies.motion[pair.a as usize].v - bodies.motion[pair.b as usize].v).norm();
-    pair.touch.speed < CREEPING * (passing + turning(pair.a) + turning(pair.b))
-}
 
 impl Continuous {
     /// Exchanges at every touch of an instant; the hits are told in the order of their pairs.
@@ -64,7 +51,7 @@ impl Continuous {
                     world.report_fault(body);
                 }
             }
-            self.watch_for_jams(&world.bodies, pair);
+            self.watch_for_jams(world, pair);
         }
     }
 
@@ -167,22 +154,6 @@ impl Continuous {
         let (a, b) = (BodyId(pair.a), BodyId(pair.b));
         let point = point + world.plan.origin;
         self.untold.push(Hit { iteration: world.iteration, a, b, point, normal, depth: 0.0, kind });
-    }
-
-    /// Counts how often bodies are hit without time going on, or hardly at all: a blade that turns against what it pushes
-    /// touches it again and again at a share of its speed that is next to nothing.
-    fn watch_for_jams(&mut self, bodies: &Bodies, pair: &Pair) {
-        let creeps = creeps(bodies, pair);
-        for body in [pair.a as usize, pair.b as usize] {
-            let (when, times) = self.hit_at[body];
-            let again = creeps || self.now <= when;
-            self.hit_at[body] = (self.now, if again { times + 1 } else { 0 });
-            self.was_hit.push(body as u32);
-        }
-        let times = |body: u32| self.hit_at[body as usize].1;
-        if times(pair.a).max(times(pair.b)) > MOST_AT_ONE_INSTANT {
-            self.hold_stuck((pair.a, pair.b));
-        }
     }
 }
 

@@ -176,6 +176,13 @@ impl Continuous {
         }
     }
 
+    /// At the end of a segment: what spans have left undone is put right before anyone looks.
+    pub(super) fn settle_all(&mut self, bodies: &mut Bodies) {
+        for cluster in clusters(&self.lasting, bodies) {
+            hold::settle(self, bodies, &cluster);
+        }
+    }
+
     /// A contact has ended.
     pub(super) fn let_part(&mut self, key: Key) {
         if let Ok(at) = self.lasting.binary_search(&key) {
@@ -187,6 +194,7 @@ impl Continuous {
     pub(super) fn allow_pulls(&mut self, bodies: usize) {
         self.pulls.resize(bodies, Pull::NONE);
         self.free.resize(bodies, Pull::NONE);
+        self.held_work.resize(bodies, 0.0);
     }
 }
 

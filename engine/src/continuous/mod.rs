@@ -15,17 +15,18 @@
 //! is cut depends on speeds and sizes alone, neither on the order of creation nor on how pairs are found.
 //!
 //! **Finite work.** A pair that would bounce lower than [`lasting::REST_HEIGHT`] of its size is held. A vertex that comes at
-//! less than [`crate::impact_time::STILL`] of the speeds involved does not come. A body that is hit more than
-//! [`MOST_AT_ONE_INSTANT`] times without time going on, or at next to no speed, is jammed: that pair is treated once an iteration
-//! from then on.
+//! less than [`crate::impact_time::STILL`] of the speeds involved does not come. Bodies that are hit again and again without time
+//! going on are [jammed](jam).
 
 mod drive;
 mod forecast;
 mod foresight;
 mod hold;
 mod instant;
+mod jam;
 mod lasting;
 mod neighbours;
+mod settle;
 
 use crate::bodies::{Bodies, Motion};
 use crate::broad_phase::Sweeping;
@@ -35,10 +36,6 @@ use crate::world::World;
 use forecast::{Event, Forecast, Pair, What};
 use lasting::Key;
 use neighbours::Neighbours;
-
-/// How often a body may be hit at one instant before the pair is taken to be jammed: enough for a pile that settles,
-/// and finite.
-const MOST_AT_ONE_INSTANT: u32 = 500;
 
 /// How far, in its own size, a body of middling speed goes in a segment. Shorter segments foresee less in vain and sweep
 /// more often; measured on a gas (`cargo bench --bench gas`).
@@ -52,8 +49,9 @@ const MOST_SEGMENTS: u32 = 4096;
 pub(crate) struct Continuous {
     /// What acts on each body; empty while nothing acts on any.
     pulls: Vec<Pull>,
-    /// The same without what holds those that rest.
+    /// The same without what holds those in lasting contact, and the work that this has done on each since it was settled \[J\].
     free: Vec<Pull>,
+    held_work: Vec<f64>,
     /// The time to which each body has flown, from the segment's start \[s\].
     since: Vec<f64>,
     /// Which segment of the iteration it is, of how many.
@@ -79,8 +77,9 @@ pub(crate) struct Continuous {
     untold: Vec<Hit>,
     /// Of each body, when it was last hit, and how often at that instant.
     hit_at: Vec<(f64, u32)>,
-    /// The bodies that were hit in this segment.
+    /// The bodies that were hit in this segment, and how many jams there were.
     was_hit: Vec<u32>,
+    jams: u32,
     phase: Phase,
     scratch: Scratch,
 }
@@ -110,6 +109,7 @@ impl Continuous {
         Continuous {
             pulls: Vec::new(),
             free: Vec::new(),
+            held_work: Vec::new(),
             since: vec![0.0; count],
             segment: (0, 1),
             length: 0.0,
@@ -126,6 +126,7 @@ impl Continuous {
             untold: Vec::new(),
             hit_at: vec![(f64::NEG_INFINITY, 0); count],
             was_hit: Vec::new(),
+            jams: 0,
             phase: Phase::Outside,
             scratch: Scratch::default(),
         }
@@ -159,9 +160,29 @@ impl Continuous {
     fn bring(&mut self, bodies: &mut Bodies, body: usize) {
         let late = self.now - self.since[body];
         if late > 0.0 {
-            fly(bodies, &self.pulls, body, late);
+            self.fly(bodies, body, late);
             self.since[body] = self.now;
         }
+    }
+
+    /// Moves a body on by some time.
+    #[inline]
+    fn fly(&mut self, bodies: &mut Bodies, body: usize, time: f64) {
+        if self.pulls.is_empty() {
+            let Motion { v, omega } = bodies.motion[body];
+            bodies.shift(body, v * time);
+            if omega != 0.0 {
+                bodies.turn(body, omega * time);
+            }
+            return;
+        }
+        let change = Path::of(bodies, &self.pulls, body).change(time);
+        self.count_held_work(bodies, body, &change);
+        bodies.shift(body, change.shift);
+        if change.turn != 0.0 {
+            bodies.turn(body, change.turn);
+        }
+        bodies.motion[body] = change.motion;
     }
 
     /// A body flies otherwise from now on.
@@ -169,25 +190,6 @@ impl Continuous {
         self.forecast.changed(body);
         self.dirty.push(body as u32);
     }
-}
-
-/// Moves a body on by some time.
-#[inline]
-fn fly(bodies: &mut Bodies, pulls: &[Pull], body: usize, time: f64) {
-    if pulls.is_empty() {
-        let Motion { v, omega } = bodies.motion[body];
-        bodies.shift(body, v * time);
-        if omega != 0.0 {
-            bodies.turn(body, omega * time);
-        }
-        return;
-    }
-    let change = Path::of(bodies, pulls, body).change(time);
-    bodies.shift(body, change.shift);
-    if change.turn != 0.0 {
-        bodies.turn(body, change.turn);
-    }
-    bodies.motion[body] = change.motion;
 }
 
 /// The story, told by the world.
@@ -249,6 +251,7 @@ impl Continuous {
         for body in self.was_hit.drain(..) {
             self.hit_at[body as usize] = (f64::NEG_INFINITY, 0);
         }
+        self.jams = 0;
         self.phase = Phase::Flying;
         self.forecast.clear();
         self.neighbours.forget();
@@ -289,7 +292,12 @@ impl Continuous {
     fn next_instant(&mut self, world: &mut World) -> bool {
         let Some(first) = self.forecast.next_within(self.length) else { return false };
         self.now = first.time.max(self.now);
-        if std::env::var_os("DBG").is_some() { eprintln!("it {} seg {:?} now {:e} of {:e}: {:?} lasting {:?} stuck {:?}", world.iteration, self.segment, self.now, self.length, first.what, self.lasting, self.stuck); }
+        if std::env::var_os("DBG").is_some() {
+            eprintln!(
+                "it {} seg {:?} now {:e} of {:e}: {:?} lasting {:?} stuck {:?}",
+                world.iteration, self.segment, self.now, self.length, first.what, self.lasting, self.stuck
+            );
+        }
         match first.what {
             What::Touch(pair) => {
                 let mut instant = core::mem::take(&mut self.scratch.instant);
@@ -327,7 +335,7 @@ impl Continuous {
         let mut lost = None;
         for &body in movers.mobile.iter().chain(&movers.fixed) {
             let body = body as usize;
-            fly(bodies, &self.pulls, body, self.length - self.since[body]);
+            self.fly(bodies, body, self.length - self.since[body]);
             if !crate::advance::is_finite(bodies, body) {
                 lost = lost.or(Some(body));
             }
@@ -339,6 +347,7 @@ impl Continuous {
         self.segment.0 += 1;
         self.since.fill(0.0);
         self.now = 0.0;
+        self.settle_all(bodies);
         if let Some(body) = lost {
             world.report_fault(body);
         } else if self.segment.0 < self.segment.1 {

@@ -49,11 +49,15 @@ impl Seams {
         !self.spans.is_empty() && self.first[4 * rect] != self.first[4 * rect + 4]
     }
 
-    /// Whether a face is covered at a place along it, to within a margin.
-    fn covers(&self, rect: usize, face: Face, at: f64, margin: f64) -> bool {
-        let k = 4 * rect + face as usize;
+    /// Whether a face is covered at a place along it: within a span, or at the end of the face that a span reaches. At the
+    /// end of a span inside the face, where something stands on it, there is a corner that can be hit.
+    fn covers(&self, of: Placed, face: Face, at: f64, margin: f64) -> bool {
+        let k = 4 * of.index + face as usize;
         let spans = &self.spans[self.first[k] as usize..self.first[k + 1] as usize];
-        spans.iter().any(|span| span.from - margin <= at && at <= span.to + margin)
+        let (start, end) = face.width(of.rect);
+        let from = |span: &Span| if span.from <= start + margin { start - margin } else { span.from + margin };
+        let to = |span: &Span| if span.to >= end - margin { end + margin } else { span.to - margin };
+        spans.iter().any(|span| from(span) <= at && at <= to(span))
     }
 
     /// Finds the seams of all bodies where they stand.
@@ -155,14 +159,20 @@ pub fn hides(seams: &Seams, reference: Placed, owner: Placed, contact: &Manifold
     }
     let margin = 4.0 * SEAM * reference.rect.half().min().min(owner.rect.half().min());
     let points = contact.points();
+    let face = contact.face;
+    let middle = contact.mean().on_face;
     let on_seam = seams.concern(reference.index)
-        && points.iter().all(|p| seams.covers(reference.index, contact.face, contact.face.along(p.on_face), margin));
+        && points
+            .iter()
+            .map(|p| p.on_face)
+            .chain([middle])
+            .all(|p| seams.covers(reference, face, face.along(p), margin));
     let against = -owner.frame.inward(reference.frame.outward(contact.face.normal()));
     on_seam
         || (seams.concern(owner.index) && {
             let lean = |face: Face| face.normal().dot(&against) > SEAM;
             let at = |face: Face, p: Vec2| face.depth_of(owner.rect, p).abs() <= margin;
-            let hidden = |face: Face, p: Vec2| at(face, p) && seams.covers(owner.index, face, face.along(p), margin);
+            let hidden = |face: Face, p: Vec2| at(face, p) && seams.covers(owner, face, face.along(p), margin);
             points.iter().all(|p| Face::ALL.into_iter().any(|face| lean(face) && hidden(face, p.vertex)))
         })
 }

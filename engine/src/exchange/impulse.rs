@@ -21,6 +21,7 @@ use crate::area::Vec2;
 use crate::bodies::{Bodies, Role};
 use crate::detect::manifold::{Manifold, Point};
 use crate::frame::perp;
+use crate::impact_time::STILL;
 
 /// A point of contact in world directions: the arms from both centres.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -66,6 +67,12 @@ impl Inverse {
 pub(crate) fn relative_velocity(bodies: &Bodies, i: usize, j: usize, at: &Arms) -> Vec2 {
     let of = |body: usize, r: Vec2| bodies.motion[body].v + perp(r) * bodies.motion[body].omega;
     of(j, at.r_j) - of(i, at.r_i)
+}
+
+/// Whether j comes at i along n at a point, faster than what rounding leaves of the speeds involved.
+pub(super) fn approaches(bodies: &Bodies, i: usize, j: usize, at: &Arms, n: Vec2) -> bool {
+    let of = |body: usize, r: Vec2| bodies.motion[body].v.norm() + bodies.motion[body].omega.abs() * r.norm();
+    relative_velocity(bodies, i, j, at).dot(&n) < -STILL * (of(i, at.r_i) + of(j, at.r_j))
 }
 
 /// Applies p to j and −p to i.
@@ -144,7 +151,7 @@ fn settle_rounding(
 pub fn exchange(bodies: &mut Bodies, (i, j): (usize, usize), n: Vec2, points: &[Arms], surface: Surface) -> bool {
     let inverse = Inverse::of(bodies, i, j);
     let t = -perp(n);
-    if !points.iter().any(|at| relative_velocity(bodies, i, j, at).dot(&n) < 0.0) {
+    if !points.iter().any(|at| approaches(bodies, i, j, at, n)) {
         return false;
     }
     match *points {
