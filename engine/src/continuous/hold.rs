@@ -15,7 +15,7 @@
 
 use super::Continuous;
 use super::forecast::What;
-use super::lasting::{Key, Moving, REST_HEIGHT, standing};
+use super::lasting::{BAND, Key, Moving, REST_HEIGHT, standing};
 use super::settle;
 use crate::area::{Rect, Vec2};
 use crate::bodies::{Bodies, Motion};
@@ -28,6 +28,13 @@ use crate::world::World;
 
 /// A gap that opens under a held contact, as a share of the smaller rectangle's half size.
 const HOP: f64 = 1e-7;
+
+/// A gap up to this share of the size, which a hop can be met in, is none for a contact that lasts already.
+pub(super) const STANDING: f64 = 4.0 * HOP;
+
+/// A contact that would close again with a speed before the end of its span is to be off by this share of the size by then: so
+/// that what is left of it is taken out there and does not strike.
+const MARGIN: f64 = 0.1 * BAND;
 
 /// Halvings of a span at most.
 const SHORTENINGS: u32 = 12;
@@ -71,7 +78,15 @@ struct Support {
 impl Support {
     /// Whether it is off its face and on its way there: it will strike, and needs no force before.
     fn comes(&self) -> bool {
-        self.gap > 4.0 * self.tolerance && self.moving.u.n < 0.0
+        self.gap > BAND * self.size && self.moving.u.n < 0.0
+    }
+
+    /// By how much it will be too near at the end of a span \[m\].
+    fn lacks(&self, state: &Continuous, bodies: &Bodies, span: f64) -> f64 {
+        let (before, gap) = (self.gap_after(state, bodies, 0.75 * span), self.gap_after(state, bodies, span));
+        let closes = before > gap + 8.0 * self.tolerance && self.force.n > 0.0;
+        let least = if closes { MARGIN * self.size } else { 0.0 };
+        if gap < 0.5 * least - self.tolerance { least.max(2.0 * self.tolerance) - gap } else { 0.0 }
     }
 
     /// The gap after some time, as the bodies will fly \[m\].
@@ -156,7 +171,7 @@ fn bodies_of(cluster: &[Key]) -> Vec<usize> {
 fn supports(state: &mut Continuous, bodies: &mut Bodies, cluster: &[Key], after: After) -> Vec<Support> {
     let mut supports: Vec<Support> = Vec::with_capacity(2 * cluster.len());
     for key in cluster {
-        let Some((manifold, size)) = standing(bodies, *key, 4.0 * HOP) else {
+        let Some((manifold, size)) = standing(bodies, *key, STANDING) else {
             state.let_part(*key);
             continue;
         };
@@ -229,22 +244,6 @@ fn plan(state: &mut Continuous, bodies: &mut Bodies, supports: &mut [Support], m
         }
         span *= 0.5;
     }
-    if std::env::var_os("DBG").is_some() {
-        for s in supports.iter() {
-            eprintln!(
-                "   span {span:e} left {left:e} gap {:e} u {:?} a {:?} f {:?} sticks {} end {:?} face {:?} v {:?} ask {:e}",
-                s.gap,
-                s.moving.u,
-                s.acceleration,
-                s.force,
-                s.sticks,
-                s.slip_end(),
-                s.face,
-                s.vertex,
-                s.ask
-            );
-        }
-    }
     span
 }
 
@@ -252,9 +251,9 @@ fn plan(state: &mut Continuous, bodies: &mut Bodies, supports: &mut [Support], m
 fn shoot(state: &Continuous, bodies: &Bodies, supports: &mut [Support], span: f64) -> bool {
     let mut any = false;
     for support in supports {
-        let gap = support.gap_after(state, bodies, span);
-        if gap < -support.tolerance {
-            support.ask += 2.0 * (2.0 * support.tolerance - gap) / (span * span);
+        let lacks = support.lacks(state, bodies, span);
+        if lacks > 0.0 {
+            support.ask += 2.0 * lacks / (span * span);
             any = true;
         }
     }

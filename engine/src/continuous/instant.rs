@@ -100,17 +100,22 @@ impl Continuous {
         let manifolds: Vec<Manifold> =
             group.iter().map(|pair| manifold_of(&world.bodies, pair, world.plan.detection)).collect();
         let softened = lasting::soften(self, &world.bodies, &manifolds);
+        let held = self.held_with(world, group);
         let acted = match (&manifolds[..], softened) {
-            ([manifold], false) => impulse::act(&mut world.bodies, manifold).is_some(),
+            ([manifold], false) if held.is_empty() => impulse::act(&mut world.bodies, manifold).is_some(),
             _ => {
-                if !softened && let Some(hits) = in_turn(&mut world.bodies, &manifolds) {
+                if !softened
+                    && held.is_empty()
+                    && let Some(hits) = in_turn(&mut world.bodies, &manifolds)
+                {
                     for k in hits {
                         self.tell_of(world, &group[k], &manifolds[k]);
                     }
                     return;
                 }
-                let points: Vec<together::Point> =
+                let mut points: Vec<together::Point> =
                     manifolds.iter().flat_map(|m| points(&world.bodies, m, softened)).collect();
+                points.extend(held);
                 together::exchange(&mut world.bodies, &points)
             }
         };

@@ -5,6 +5,7 @@
 //! until they part. Elastic scenes without forces have no such contact, and pay for none.
 
 use super::Continuous;
+use super::forecast::Pair;
 use super::hold::{self, After};
 use crate::area::Vec2;
 use crate::bodies::Bodies;
@@ -148,6 +149,30 @@ impl Continuous {
         let bodies = &world.bodies;
         let Some((manifold, size)) = standing(bodies, key, BAND) else { return false };
         would_rest(self, bodies, &Moving::all(bodies, &manifold), size, |p| p.u.n)
+    }
+
+    /// The points at which what is struck is in lasting contact, directly or through others: they share the blow.
+    pub(super) fn held_with(&mut self, world: &mut World, group: &[Pair]) -> Vec<together::Point> {
+        if self.lasting.is_empty() {
+            return Vec::new();
+        }
+        let struck = |body: &u32| group.iter().any(|pair| pair.a == *body || pair.b == *body);
+        let in_group = |key: &Key| group.iter().any(|pair| pair.key() == *key);
+        let mobile = |body: u32| world.bodies.is_mobile(body as usize);
+        let is_struck = |(a, b, ..): &Key| (mobile(*a) && struck(a)) || (mobile(*b) && struck(b));
+        let clusters = clusters(&self.lasting, &world.bodies);
+        let keys: Vec<Key> = clusters.into_iter().filter(|c| c.iter().any(is_struck)).flatten().collect();
+        let mut points = Vec::new();
+        for key in keys.into_iter().filter(|key| !in_group(key)) {
+            for body in [key.0, key.1] {
+                self.bring(&mut world.bodies, body as usize);
+                self.struck.push(body);
+            }
+            if let Some((manifold, _)) = standing(&world.bodies, key, hold::STANDING) {
+                points.extend(self::points(&world.bodies, &manifold));
+            }
+        }
+        points
     }
 
     /// Holds all that is in lasting contact, anew.

@@ -292,12 +292,6 @@ impl Continuous {
     fn next_instant(&mut self, world: &mut World) -> bool {
         let Some(first) = self.forecast.next_within(self.length) else { return false };
         self.now = first.time.max(self.now);
-        if std::env::var_os("DBG").is_some() {
-            eprintln!(
-                "it {} seg {:?} now {:e} of {:e}: {:?} lasting {:?} stuck {:?}",
-                world.iteration, self.segment, self.now, self.length, first.what, self.lasting, self.stuck
-            );
-        }
         match first.what {
             What::Touch(pair) => {
                 let mut instant = core::mem::take(&mut self.scratch.instant);

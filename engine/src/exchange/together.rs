@@ -152,6 +152,9 @@ struct Row<'a> {
 }
 
 /// Lets impulses grow at all points until each has what it asks for, and applies them.
+///
+/// Every round improves upon an extrapolation of the last two (Nesterov 1983), unless that led astray (O'Donoghue and Candès
+/// 2015): a stack of n then takes about n rounds and not n².
 pub(crate) fn solve(bodies: &mut Bodies, points: &[Point], demands: &[Demand]) -> Vec<Impulse> {
     let rows = rows(bodies, points, demands);
     let lacks = |row: &Row| {
@@ -159,19 +162,70 @@ pub(crate) fn solve(bodies: &mut Bodies, points: &[Point], demands: &[Demand]) -
         (u - row.point.n * row.wanted.n).norm().max(row.wanted.t.abs())
     };
     let scale = rows.iter().map(lacks).fold(0.0, f64::max);
-    let mut impulses = vec![Impulse::default(); rows.len()];
-    let mut steps: Vec<(Vec2, f64)> = Vec::with_capacity(rows.len());
+    let start = involved(bodies, points);
+    let mut now = Guess { impulses: vec![Impulse::default(); rows.len()], motions: start.clone() };
+    let mut last = now.clone();
+    let (mut momentum, mut before) = (1.0, f64::INFINITY);
     for _ in 0..MOST_ROUNDS {
-        steps.clear();
-        steps.extend(rows.iter().zip(&mut impulses).map(|(row, so_far)| improve(bodies, row, so_far)));
-        for (row, (step, _)) in rows.iter().zip(&steps) {
-            apply(bodies, row.point.i, row.point.j, &row.inverse, &row.point.arms, *step);
-        }
-        if steps.iter().all(|(_, change)| *change <= SETTLED * scale) {
+        let next = 0.5 * (1.0 + (1.0_f64 + 4.0 * momentum * momentum).sqrt());
+        let from = now.beyond(&last, (momentum - 1.0) / next);
+        let (better, change, turned) = from.improved(bodies, &rows, &now);
+        let astray = turned || change > before;
+        before = change;
+        momentum = if astray { 1.0 } else { next };
+        last = if astray { better.clone() } else { now };
+        now = better;
+        if change <= SETTLED * scale {
             break;
         }
     }
-    impulses
+    restore(bodies, &start);
+    for (row, p) in rows.iter().zip(&now.impulses) {
+        apply(bodies, row.point.i, row.point.j, &row.inverse, &row.point.arms, row.given(*p));
+    }
+    now.impulses
+}
+
+/// Impulses, and the motions they give.
+#[derive(Clone)]
+struct Guess {
+    impulses: Vec<Impulse>,
+    motions: Vec<(usize, Motion)>,
+}
+
+impl Guess {
+    /// The guess to which another leads, and so much beyond.
+    fn beyond(&self, other: &Guess, share: f64) -> Guess {
+        let on = |now: f64, last: f64| now + share * (now - last);
+        let impulses = self.impulses.iter().zip(&other.impulses);
+        let motions = self.motions.iter().zip(&other.motions);
+        Guess {
+            impulses: impulses.map(|(p, q)| Impulse { n: on(p.n, q.n), t: on(p.t, q.t) }).collect(),
+            motions: motions
+                .map(|((body, m), (_, l))| {
+                    let v = Vec2::new(on(m.v.x, l.v.x), on(m.v.y, l.v.y));
+                    (*body, Motion { v, omega: on(m.omega, l.omega) })
+                })
+                .collect(),
+        }
+    }
+
+    /// The guess with every point improved at once; by how much velocity at most; and whether that turns back on the way
+    /// from `before`.
+    fn improved(&self, bodies: &mut Bodies, rows: &[Row], before: &Guess) -> (Guess, f64, bool) {
+        restore(bodies, &self.motions);
+        let impulses: Vec<Impulse> = rows.iter().zip(&self.impulses).map(|(row, p)| improve(bodies, row, *p)).collect();
+        let (mut most, mut back) = (0.0_f64, 0.0);
+        for (k, row) in rows.iter().enumerate() {
+            let (from, to, was) = (self.impulses[k], impulses[k], before.impulses[k]);
+            let change = Impulse { n: to.n - from.n, t: to.t - from.t };
+            most = most.max((row.k_nn * change.n.abs()).max(row.k_tt * change.t.abs()));
+            back -= row.k_nn * change.n * (to.n - was.n) + row.k_tt * change.t * (to.t - was.t);
+            apply(bodies, row.point.i, row.point.j, &row.inverse, &row.point.arms, row.given(change));
+        }
+        let motions = self.motions.iter().map(|(body, _)| (*body, bodies.motion[*body])).collect();
+        (Guess { impulses, motions }, most, back > 0.0)
+    }
 }
 
 fn rows<'a>(bodies: &Bodies, points: &'a [Point], demands: &[Demand]) -> Vec<Row<'a>> {
@@ -202,8 +256,15 @@ fn rows<'a>(bodies: &Bodies, points: &'a [Point], demands: &[Demand]) -> Vec<Row
     points.iter().zip(demands).map(row).collect()
 }
 
-/// What a point adds to its impulse, seeing the motions as they are; and how much velocity that is.
-fn improve(bodies: &Bodies, row: &Row, so_far: &mut Impulse) -> (Vec2, f64) {
+impl Row<'_> {
+    /// An impulse in world directions.
+    fn given(&self, p: Impulse) -> Vec2 {
+        self.point.n * p.n - perp(self.point.n) * p.t
+    }
+}
+
+/// A point's better impulse, seeing the motions as they are.
+fn improve(bodies: &Bodies, row: &Row, so_far: Impulse) -> Impulse {
     let Row { point: p, wanted, grip, weight, k_nn, k_tt, .. } = row;
     let t = -perp(p.n);
     let u = relative_velocity(bodies, p.i, p.j, &p.arms);
@@ -213,7 +274,5 @@ fn improve(bodies: &Bodies, row: &Row, so_far: &mut Impulse) -> (Vec2, f64) {
         Grip::Holds(friction) => (so_far.t + weight * (wanted.t - u.dot(&t)) / k_tt).clamp(-friction * n, friction * n),
         Grip::Drags(share) => share * n,
     };
-    let change = Impulse { n: n - so_far.n, t: along - so_far.t };
-    *so_far = Impulse { n, t: along };
-    (p.n * change.n + t * change.t, (k_nn * change.n.abs()).max(k_tt * change.t.abs()))
+    Impulse { n, t: along }
 }
