@@ -79,7 +79,6 @@ fn e1_the_galperin_billiard_counts_314159() {
 }
 
 #[test]
-#[cfg_attr(debug_assertions, ignore = "3 million impacts: seconds in release")]
 fn e1_the_galperin_billiard_counts_3141592() {
     assert_counts_pi(6, 2e-7);
 }

@@ -59,7 +59,7 @@ fn e4_a_gas_of_rods_after_ten_thousand_seconds() {
 }
 
 #[test]
-#[cfg_attr(debug_assertions, ignore = "17 million impacts: half a minute in release")]
+#[cfg_attr(debug_assertions, ignore = "17 million impacts: a minute in debug, half of one in release")]
 fn e4_a_gas_of_rods_after_a_million_seconds() {
     assert_state_at("1000000", 100_000, 1e-8);
 }
