@@ -29,9 +29,8 @@
 //! |---|---|---|
 //! | E1, k = 5: time of the last hit | 1e-9 | 2.8e-9 |
 //! | E1, k = 6: time of the last hit | 1e-9 | 6.5e-8 |
-//! | E3, e = 0.99: depth at rest | 1e-12 | 1.01e-12 |
-//! | C1, C2 with e = 0: number of hits | 1 | 503: the corner stays at the face that turns |
-//! | T25 with e = 0: number of hits | 4 | 110 at the one instant; the motions are right |
+//! | C1, C2 with e = 0: number of hits | 1 | 9 and 5: the corner stays at the face that turns |
+//! | Q3 with e < 1: energy never grows | 1e-12 | 1e-8 at a hit of bodies in lasting contact |
 
 #![expect(clippy::excessive_precision, reason = "exact answers are quoted with all their digits")]
 

@@ -26,6 +26,13 @@ fn assert_c(scene: &Scene, expected: [f64; 4], energy: f64) {
     }
 }
 
+/// One point or two, it is one impact. Without restitution the corner stays at the face while both turn: a lasting contact, which is told
+/// of as often as it is taken up anew (9 and 5 times in the rest of the quarter second).
+fn assert_hits(scene: &Scene) {
+    let hits = run(scene, 1).hits.len();
+    assert!(if scene.settings.restitution > 0.0 { hits == 1 } else { hits < 20 }, "{hits} hits");
+}
+
 #[test]
 fn c1_a_vertex_meets_a_face_off_centre() {
     let cases = [
@@ -37,7 +44,7 @@ fn c1_a_vertex_meets_a_face_off_centre() {
         let scene = a_meets_b(e, libm::atan2(3.0, 4.0));
         assert_c(&scene, expected.map(|x| x / 3967.0), energy);
         assert_close(&[at_first_hit(&scene).time()], &[0.4 / 3.0], 1e-16, "A's corner has 0.4 m to go");
-        assert!(e == 0.0 || run(&scene, 1).hits.len() == 1);
+        assert_hits(&scene);
     }
 }
 
@@ -52,7 +59,7 @@ fn c2_parallel_faces_meet_at_two_points_at_once() {
     for (e, expected, energy) in cases {
         let expected = expected.map(|x| x / 125.0);
         assert_c(&a_meets_b(e, 0.0), expected, energy);
-        assert!(e == 0.0 || run(&a_meets_b(e, 0.0), 1).hits.len() == 1, "two points, one impact");
+        assert_hits(&a_meets_b(e, 0.0));
         // Newton's law at both ends, z = 1/2 and z = −1/4: they part at e times 3 m/s.
         for z in [0.5, -0.25] {
             let parting = (expected[2] - expected[3] * (z - 1.25)) - (expected[0] - expected[1] * z);
