@@ -83,11 +83,11 @@ fn t27_infinitely_many_impacts_take_finite_work() {
 
 #[test]
 fn t28_a_block_at_rest_on_a_floor_stays_whatever_its_restitution() {
-    for e in [1.0, 0.5, 0.0] {
+    for (e, steps) in [(1.0, 100_000), (0.5, 5_000), (0.0, 5_000)] {
         let floor = wall("floor", (9.0, 1.0), (0.0, -0.5));
         let scene = falling(e, 1.0 / 60.0, vec![floor, block("box", (1.0, 1.0), (0.0, 0.5), (0.0, 0.0), 1.0)]);
         let mut world = World::new(&scene).expect("a valid scene");
-        for step in 0..100_000 {
+        for step in 0..steps {
             world.step();
             if step % 1000 == 0 {
                 let found = state(&world, "box");

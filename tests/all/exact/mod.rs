@@ -30,7 +30,6 @@
 //! | E1, k = 5: time of the last hit | 1e-9 | 2.8e-9 |
 //! | E1, k = 6: time of the last hit | 1e-9 | 6.5e-8 |
 //! | C1, C2 with e = 0: number of hits | 1 | 9 and 5: the corner stays at the face that turns |
-//! | Q3 with e < 1: energy never grows | 1e-12 | 1e-8 at a hit of bodies in lasting contact |
 
 #![expect(clippy::excessive_precision, reason = "exact answers are quoted with all their digits")]
 

@@ -91,9 +91,7 @@ fn q3_every_hit_keeps_the_books() {
                 given.norm()
             };
             assert!(along_face <= 1e-12 * scale, "hit {hits}: {along_face:e} of {scale}");
-            // The goal is 1e-12 for all; bodies without restitution to speak of stay in contact, and that is integrated.
-            let growth = if e == 1.0 { 1e-12 } else { 1e-8 };
-            assert!(e_now <= energy * (1.0 + growth), "e = {e}, hit {hits} of {first}: {energy} became {e_now}");
+            assert!(e_now <= energy * (1.0 + 1e-12), "e = {e}, hit {hits} of {first}: {energy} became {e_now}");
             (momentum, energy) = (now, e_now);
             hits += 1;
         });
