@@ -8,10 +8,12 @@
 //!
 //! linear in the forces f, so that it is the problem that simultaneous impacts pose, for accelerations in place of
 //! velocities ([`together`]). What the straight formula leaves out, because bodies turn, is made up for by shooting: g(T) is
-//! computed from the flight, and where it comes out negative the point asks for that much more. Between a contact held so and
-//! the face there opens a gap of at most [`HOP`]; where it would be more the span is halved. Friction holds within its cone
+//! computed from the flight, and where it comes out negative the point asks for that much more. The forces act where the
+//! contact is in the middle of the span (the midpoint rule), which keeps angular momentum to rounding. Between a contact held so
+//! and the face there opens a gap of at most [`HOP`]; where it would be more the span is halved. Friction holds within its cone
 //! or drags against the slip, and a span ends where slip does. At its end the little approach that is left is taken out, without
-//! restitution. So energy is never made, flat rest is exact, and the search for the next impact watches all the while.
+//! restitution, and energy that was made ([`settle`]). So energy never grows, flat rest is exact, and the search for the next impact
+//! watches all the while.
 
 use super::Continuous;
 use super::forecast::What;
@@ -21,6 +23,7 @@ use crate::area::{Rect, Vec2};
 use crate::bodies::{Bodies, Motion};
 use crate::detect::Face;
 use crate::exchange::impact::Surface;
+use crate::exchange::impulse::Arms;
 use crate::exchange::together::{self, Demand, Grip, Impulse};
 use crate::flight::{Path, turned};
 use crate::impact_time::TOUCHING;
@@ -40,7 +43,16 @@ const MARGIN: f64 = 0.1 * BAND;
 const SHORTENINGS: u32 = 12;
 
 /// Shots at the end of a span: each leaves about the square of what the last one did.
-const SHOTS: u32 = 4;
+const SHOTS: u32 = 8;
+
+/// Where in a span a gap is looked at for having closed at once [share of the span].
+const EARLY: f64 = 0.25;
+
+/// A point at its face sinks when it accelerates inwards by more than this share of what holds it.
+const SINKING: f64 = 1e-13;
+
+/// Arms that differ by less are the same [share of their length].
+const SAME: f64 = 1e-15;
 
 /// Slip that friction would end within this share of the span has ended.
 const ENDED: f64 = 1e-6;
@@ -57,6 +69,8 @@ pub(super) enum After {
 /// A point of contact that is to be held.
 struct Support {
     moving: Moving,
+    /// Where and along which normal its force acts, over the span.
+    acts: together::Point,
     /// The point of the owner, in its frame, and the face of the reference.
     vertex: Vec2,
     face: Face,
@@ -78,15 +92,46 @@ struct Support {
 impl Support {
     /// Whether it is off its face and on its way there: it will strike, and needs no force before.
     fn comes(&self) -> bool {
-        self.gap > BAND * self.size && self.moving.u.n < 0.0
+        self.gap > HOP * self.size && self.moving.u.n < 0.0
     }
 
-    /// By how much it will be too near at the end of a span \[m\].
+    /// How much more acceleration it takes for it not to be too near early in a span, nor at its end \[m/s²\].
     fn lacks(&self, state: &Continuous, bodies: &Bodies, span: f64) -> f64 {
-        let (before, gap) = (self.gap_after(state, bodies, 0.75 * span), self.gap_after(state, bodies, span));
-        let closes = before > gap + 8.0 * self.tolerance && self.force.n > 0.0;
+        let at = |share: f64| self.gap_after(state, bodies, share * span);
+        let (early, before, gap) = (at(EARLY), at(0.75), at(1.0));
+        let is_at_face = self.gap <= 4.0 * self.tolerance;
+        let closes = is_at_face && before > gap + 8.0 * self.tolerance && self.force.n > 0.0;
         let least = if closes { MARGIN * self.size } else { 0.0 };
-        if gap < 0.5 * least - self.tolerance { least.max(2.0 * self.tolerance) - gap } else { 0.0 }
+        let lack = |gap: f64, least: f64, time: f64| {
+            let missing = if gap < 0.5 * least - self.tolerance { least.max(2.0 * self.tolerance) - gap } else { 0.0 };
+            2.0 * missing / (time * time)
+        };
+        let sinks = if is_at_face { self.moving.pressing_by(bodies, &state.pulls) } else { 0.0 };
+        lack(gap, least, span).max(lack(early, 0.0, EARLY * span)).max(if sinks > SINKING * self.force.n {
+            sinks
+        } else {
+            0.0
+        })
+    }
+
+    /// Lets the force act where the contact is in the middle of the span, along the normal there, its arms counted from where the
+    /// bodies' centres are on average: then what one body gains of angular momentum the other loses, to rounding. Gives by how
+    /// much that differs from before, as a share of the lengths involved.
+    fn act_midway(&mut self, state: &Continuous, bodies: &Bodies, span: f64) -> f64 {
+        let together::Point { i, j, arms: before, .. } = self.acts;
+        let half = |body: usize| Path::of(bodies, &state.pulls, body).change(0.5 * span);
+        let (half_i, half_j) = (half(i), half(j));
+        let turned = |body: usize, turn: f64| turned(&bodies.frame[body], Vec2::zeros(), turn);
+        let vertex = half_j.shift + turned(j, half_j.turn).outward(self.vertex);
+        // The mean of a quadratic is a third of the way from the mean of its ends to its middle, twice (Simpson).
+        let mean =
+            |body: usize, middle: Vec2| (Path::of(bodies, &state.pulls, body).change(span).shift + middle * 4.0) / 6.0;
+        let d = bodies.frame[j].o - bodies.frame[i].o;
+        let arms = Arms { r_i: (d + vertex) - mean(i, half_i.shift), r_j: vertex - mean(j, half_j.shift) };
+        let n = turned(i, half_i.turn).outward(self.face.normal());
+        let moved = (arms.r_i - before.r_i).norm() + (arms.r_j - before.r_j).norm();
+        self.acts = together::Point { n, arms, ..self.acts };
+        moved / (arms.r_i.norm() + arms.r_j.norm())
     }
 
     /// The gap after some time, as the bodies will fly \[m\].
@@ -134,7 +179,7 @@ pub(super) fn hold(state: &mut Continuous, world: &mut World, cluster: &[Key], a
     }
     let movers: Vec<usize> = bodies_of.iter().copied().filter(|body| world.bodies.is_mobile(*body)).collect();
     state.allow_pulls(world.bodies.len());
-    settle::energy(state, &mut world.bodies, &bodies_of);
+    settle::settle(state, &mut world.bodies, &bodies_of);
     for body in &movers {
         state.pulls[*body] = state.free[*body];
     }
@@ -155,7 +200,7 @@ pub(super) fn hold(state: &mut Continuous, world: &mut World, cluster: &[Key], a
 
 /// Puts right at the end of a span what its forces have left undone: energy that they made, approach at the points.
 pub(super) fn settle(state: &mut Continuous, bodies: &mut Bodies, cluster: &[Key]) {
-    settle::energy(state, bodies, &bodies_of(cluster));
+    settle::settle(state, bodies, &bodies_of(cluster));
     supports(state, bodies, cluster, After::Rest);
 }
 
@@ -186,6 +231,7 @@ fn supports(state: &mut Continuous, bodies: &mut Bodies, cluster: &[Key], after:
         let d = bodies.frame[manifold.owner].o - bodies.frame[manifold.reference].o;
         supports.extend(all.into_iter().zip(manifold.points()).map(|(moving, point)| Support {
             moving,
+            acts: moving.point,
             vertex: point.vertex,
             face: manifold.face,
             rect,
@@ -220,7 +266,7 @@ fn plan(state: &mut Continuous, bodies: &mut Bodies, supports: &mut [Support], m
     let mut span = left;
     for _ in 0..SHORTENINGS {
         for support in supports.iter_mut() {
-            support.ask = -2.0 * (support.gap.max(0.0) + support.moving.u.n * span) / (span * span);
+            support.ask = -2.0 * (0.5 * support.gap.max(0.0) + support.moving.u.n * span) / (span * span);
         }
         push(state, bodies, supports, movers, span);
         if supports.iter().any(|s| s.slip_end().is_some_and(|end| end < ENDED * left)) {
@@ -233,7 +279,8 @@ fn plan(state: &mut Continuous, bodies: &mut Bodies, supports: &mut [Support], m
             continue;
         }
         for _ in 0..SHOTS {
-            if !shoot(state, bodies, supports, span) {
+            let moved = supports.iter_mut().map(|s| s.act_midway(state, bodies, span)).fold(0.0, f64::max);
+            if !shoot(state, bodies, supports, span) && moved <= SAME {
                 break;
             }
             push(state, bodies, supports, movers, span);
@@ -252,17 +299,15 @@ fn shoot(state: &Continuous, bodies: &Bodies, supports: &mut [Support], span: f6
     let mut any = false;
     for support in supports {
         let lacks = support.lacks(state, bodies, span);
-        if lacks > 0.0 {
-            support.ask += 2.0 * lacks / (span * span);
-            any = true;
-        }
+        support.ask += lacks;
+        any |= lacks > 0.0;
     }
     any
 }
 
 /// Solves for the forces that give every point what it asks for, and lets them act.
 fn push(state: &mut Continuous, bodies: &mut Bodies, supports: &mut [Support], movers: &[usize], span: f64) {
-    let points: Vec<together::Point> = supports.iter().map(|s| s.moving.point).collect();
+    let points: Vec<together::Point> = supports.iter().map(|s| s.acts).collect();
     let demands: Vec<Demand> = supports.iter().map(|s| s.demand(span)).collect();
     // The solver sees accelerations where it looks for velocities, for as long as it takes.
     let mut involved: Vec<usize> = points.iter().flat_map(|p| [p.i, p.j]).chain(movers.iter().copied()).collect();
@@ -276,8 +321,7 @@ fn push(state: &mut Continuous, bodies: &mut Bodies, supports: &mut [Support], m
     }
     let forces = together::solve(bodies, &points, &demands);
     for (support, force) in supports.iter_mut().zip(forces) {
-        let now = Moving::of(bodies, support.moving.point).u;
-        let drift = support.moving.drift;
+        let (now, drift) = (Moving::of(bodies, support.acts).u, support.moving.drift);
         support.force = force;
         support.acceleration = Impulse { n: now.n + drift.n, t: now.t + drift.t };
     }

@@ -7,6 +7,7 @@
 use super::Continuous;
 use super::forecast::Pair;
 use super::hold::{self, After};
+use super::settle::Held;
 use crate::area::Vec2;
 use crate::bodies::Bodies;
 use crate::detect::manifold::{Manifold, Placed};
@@ -57,11 +58,13 @@ impl Moving {
     /// How hard the two are pressed together \[m/s²\], by what acts on them as they are held or as they would be by
     /// nothing: what stands on a held body presses on it, and what is held by one body may press on the next as well.
     fn pressing(&self, state: &Continuous, bodies: &Bodies) -> f64 {
-        let by = |pulls: &[Pull]| {
-            let (of_i, of_j) = self.driven(bodies, pulls);
-            -((of_j - of_i).dot(&self.point.n) + self.drift.n)
-        };
-        by(&state.pulls).max(by(&state.free))
+        self.pressing_by(bodies, &state.pulls).max(self.pressing_by(bodies, &state.free))
+    }
+
+    /// How hard the two are pressed together by some pulls \[m/s²\].
+    pub(super) fn pressing_by(&self, bodies: &Bodies, pulls: &[Pull]) -> f64 {
+        let (of_i, of_j) = self.driven(bodies, pulls);
+        -((of_j - of_i).dot(&self.point.n) + self.drift.n)
     }
 
     /// The accelerations that are about at the point, whichever way they act \[m/s²\].
@@ -219,7 +222,7 @@ impl Continuous {
     pub(super) fn allow_pulls(&mut self, bodies: usize) {
         self.pulls.resize(bodies, Pull::NONE);
         self.free.resize(bodies, Pull::NONE);
-        self.held_work.resize(bodies, 0.0);
+        self.held.resize(bodies, Held::default());
     }
 }
 

@@ -36,6 +36,7 @@ use crate::world::World;
 use forecast::{Event, Forecast, Pair, What};
 use lasting::Key;
 use neighbours::Neighbours;
+use settle::Held;
 
 /// How far, in its own size, a body of middling speed goes in a segment. Shorter segments foresee less in vain and sweep
 /// more often; measured on a gas (`cargo bench --bench gas`).
@@ -49,9 +50,9 @@ const MOST_SEGMENTS: u32 = 4096;
 pub(crate) struct Continuous {
     /// What acts on each body; empty while nothing acts on any.
     pulls: Vec<Pull>,
-    /// The same without what holds those in lasting contact, and the work that this has done on each since it was settled \[J\].
+    /// The same without what holds those in lasting contact, and what that has done to each since it was settled.
     free: Vec<Pull>,
-    held_work: Vec<f64>,
+    held: Vec<Held>,
     /// The time to which each body has flown, from the segment's start \[s\].
     since: Vec<f64>,
     /// Which segment of the iteration it is, of how many.
@@ -109,7 +110,7 @@ impl Continuous {
         Continuous {
             pulls: Vec::new(),
             free: Vec::new(),
-            held_work: Vec::new(),
+            held: Vec::new(),
             since: vec![0.0; count],
             segment: (0, 1),
             length: 0.0,
@@ -177,7 +178,7 @@ impl Continuous {
             return;
         }
         let change = Path::of(bodies, &self.pulls, body).change(time);
-        self.count_held_work(bodies, body, &change);
+        self.count_held_work(bodies, body, &change, time);
         bodies.shift(body, change.shift);
         if change.turn != 0.0 {
             bodies.turn(body, change.turn);

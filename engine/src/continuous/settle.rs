@@ -1,4 +1,7 @@
-//! Energy that constant forces have made is taken out again.
+//! Energy that constant forces have made is taken out again, and angular momentum.
+//!
+//! Angular momentum is kept over a whole span; where an impact cuts it short, the little that is amiss is put right by turning the
+//! cluster as one.
 //!
 //! In the frame of what it stands on, a lasting contact does no work, or takes some by friction. Forces that are constant
 //! over a span while bodies turn do a little, of either sign. What they took stays taken; what they made is taken out of
@@ -9,7 +12,7 @@
 use super::Continuous;
 use crate::area::Vec2;
 use crate::bodies::{Bodies, Inertia, Motion, Role};
-use crate::flight::Change;
+use crate::flight::{Change, Path};
 use crate::frame::perp;
 
 /// More than rounding could leave of what is taken out.
@@ -18,25 +21,46 @@ const SURE: f64 = 1.0 + 1e-9;
 impl Continuous {
     /// Counts the work that what holds a body does while it flies.
     #[inline]
-    pub(super) fn count_held_work(&mut self, bodies: &Bodies, body: usize, change: &Change) {
+    pub(super) fn count_held_work(&mut self, bodies: &Bodies, body: usize, change: &Change, time: f64) {
         let (pull, free) = (&self.pulls[body], &self.free[body]);
         let (a, alpha) = (pull.a - free.a, pull.alpha - free.alpha);
-        if a.x != 0.0 || a.y != 0.0 || alpha != 0.0 {
-            let Inertia { mass, moment } = bodies.inertia[body];
-            self.held_work[body] += mass * a.dot(&change.shift) + moment * alpha * change.turn;
+        if a.x == 0.0 && a.y == 0.0 && alpha == 0.0 {
+            return;
         }
+        let Inertia { mass, moment } = bodies.inertia[body];
+        let middle = Path::of(bodies, &self.pulls, body).change(0.5 * time).shift;
+        let mean = bodies.frame[body].o + (change.shift + middle * 4.0) / 6.0; // Simpson: exact but for drag
+        let held = &mut self.held[body];
+        held.work += mass * a.dot(&change.shift) + moment * alpha * change.turn;
+        held.turn += (mass * perp(mean).dot(&a) + moment * alpha) * time;
     }
 }
 
-/// Takes out what the forces that held these bodies have made of energy. What a fixed body that moves has worked is its own.
-pub(super) fn energy(state: &mut Continuous, bodies: &mut Bodies, cluster: &[usize]) {
-    let made: f64 = cluster.iter().map(|body| core::mem::take(&mut state.held_work[*body])).sum();
+/// What has held a body since that was last settled.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Held {
+    /// Its work \[J\], and its angular momentum about the origin \[kg·m²/s\].
+    work: f64,
+    turn: f64,
+}
+
+/// Takes out what the forces that held these bodies have made of energy, and of angular momentum where nothing fixed is among
+/// them. What a fixed body that moves has worked is its own.
+pub(super) fn settle(state: &mut Continuous, bodies: &mut Bodies, cluster: &[usize]) {
+    let (mut made, mut turn) = (0.0, 0.0);
+    for body in cluster {
+        let Held { work, turn: of_body } = core::mem::take(&mut state.held[*body]);
+        (made, turn) = (made + work, turn + of_body);
+    }
     let is_driven = cluster.iter().any(|body| bodies.role[*body] == Role::FixedWithPhysics);
+    let movers: Vec<usize> = cluster.iter().copied().filter(|body| bodies.is_mobile(*body)).collect();
+    let stands = movers.len() < cluster.len();
+    if !stands && turn != 0.0 {
+        made += Rigid::of(bodies, &movers).turn_back(bodies, &movers, turn);
+    }
     if made <= 0.0 || is_driven {
         return;
     }
-    let movers: Vec<usize> = cluster.iter().copied().filter(|body| bodies.is_mobile(*body)).collect();
-    let stands = movers.len() < cluster.len();
     let common = if stands { Rigid::default() } else { Rigid::of(bodies, &movers) };
     let within: Vec<Motion> = movers.iter().map(|body| common.without(bodies, *body)).collect();
     let energy = |(body, m): (&usize, &Motion)| {
@@ -61,6 +85,8 @@ struct Rigid {
     centre: Vec2,
     v: Vec2,
     omega: f64,
+    /// Moment of inertia of all about their centre.
+    moment: f64,
 }
 
 impl Rigid {
@@ -81,7 +107,17 @@ impl Rigid {
             angular += m * perp(r).dot(&(bodies.motion[body].v - v)) + i * bodies.motion[body].omega;
             moment += m * r.dot(&r) + i;
         }
-        Rigid { centre, v, omega: angular / moment }
+        Rigid { centre, v, omega: angular / moment, moment }
+    }
+
+    /// Takes angular momentum out by turning all as one; gives what that adds to the energy.
+    fn turn_back(&self, bodies: &mut Bodies, movers: &[usize], turn: f64) -> f64 {
+        let change = -turn / self.moment;
+        for &body in movers {
+            bodies.motion[body].v += perp(bodies.frame[body].o - self.centre) * change;
+            bodies.motion[body].omega += change;
+        }
+        self.moment * change * (self.omega + 0.5 * change)
     }
 
     /// What a body's motion is besides.
