@@ -88,14 +88,14 @@ macro_rules! causes {
 
 causes! {
     /// What collisions do by themselves. The document's exchange: what its rule does at μ_L = μ_A = 1, the fixed body's own
-    /// motion taken as zero. The impulse exchange: the momentum that fixed bodies take up along the normal, also
-    /// from bodies that rest on them.
+    /// motion taken as zero. The impulse exchange: the momentum that fixed bodies take up along the normal.
     Exchange: "exchange",
     /// What μ_L < 1 changes of that, then.
     MuL: "mu_l",
     /// What μ_A < 1 changes of that, last.
     MuA: "mu_a",
-    /// The impulse exchange: the work of the normal impulses, spent in compression and partly given back.
+    /// The impulse exchange: the work of the normal impulses, spent in compression and partly given back. Contacts that last
+    /// are booked as impacts are, here and under the next: forces times time in place of impulses.
     Restitution: "restitution",
     /// The impulse exchange: the work of the tangential impulses, and the momentum that fixed bodies take up along the
     /// tangent.

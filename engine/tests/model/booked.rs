@@ -278,6 +278,23 @@ fn what_rests_is_held_and_a_lift_works() {
     }
 }
 
+/// A block slides on a floor until it stands: friction takes all it had, and the floor all its momentum.
+#[test]
+fn lasting_friction_takes_what_a_slide_costs() {
+    let bodies = vec![wall("floor", (99.0, 1.0), (0.0, -0.5)), block("b", (1.0, 1.0), (0.0, 0.5), (2.0, 0.0), 3.0)];
+    let mut scene = impulse(0.0, 1.0 / 64.0, bodies);
+    scene.settings.gravity = (0.0, -10.0);
+    scene.settings.friction = 0.3;
+    let mut world = World::new(&scene).expect("a valid scene");
+    world.keep_ledger();
+    steps(&mut world, 64); // it stands after v/(μ g) = 2/3 s
+    let id = world.find("b").expect("it is there");
+    assert!(world.velocity(id).norm() < 1e-9, "{:?}", world.velocity(id));
+    assert_energies(&world, &[(Cause::Friction, -6.0)], 1e-6);
+    assert!((booked(&world, Cause::Friction).momentum_x + 6.0).abs() < 1e-6);
+    assert!((booked(&world, Cause::Exchange).momentum_z - 30.0).abs() < 1e-6);
+}
+
 /// Two equal blocks from both sides at one instant into a third: what each pair changed is entered by itself.
 #[test]
 fn impacts_at_one_instant_have_entries_of_their_own() {
