@@ -60,7 +60,7 @@ pub fn run(arguments: &RunArguments) -> Result<Verdict, Error> {
     tell_notes(&scenario, &run.world());
     let mut watcher = Watcher {
         meetings: FirstMeetings::new(MEETINGS),
-        rows: arguments.ledger.as_ref().map(|_| Rows::new()),
+        rows: arguments.ledger.as_ref().map(|_| Rows::begin()),
         progress: Progress::new(run.world().plan().steps),
     };
     let played = play(&mut run, &mut watcher);

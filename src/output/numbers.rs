@@ -15,7 +15,7 @@ pub fn short(number: f64) -> String {
 pub fn rough(number: f64) -> String {
     let figures = format!("{number:.3e}");
     match figures.parse::<f64>() {
-        Ok(rounded) if rounded == 0.0 => "0".to_owned(),
+        Ok(0.0) => "0".to_owned(),
         Ok(rounded) if (1e-3..1e7).contains(&rounded.abs()) => rounded.to_string(),
         Ok(rounded) => format!("{rounded:e}"),
         Err(_) => figures,

@@ -36,13 +36,13 @@ pub struct Rows {
 impl Rows {
     /// None yet, under their headings.
     #[must_use]
-    pub fn new() -> Self {
-        let begin = || {
+    pub fn begin() -> Self {
+        let open = || {
             let mut rows = csv::Writer::from_writer(tempfile::tempfile()?);
             rows.write_record(headings())?;
             Ok(rows)
         };
-        Rows { rows: begin() }
+        Rows { rows: open() }
     }
 
     /// Writes all rows to a file, whole or not at all.
