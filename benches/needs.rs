@@ -13,7 +13,10 @@ const COUNT: usize = 10_000;
 fn measure(criterion: &mut Criterion, name: &str, change: impl FnOnce(&mut Scene)) {
     let mut scene = arena::arena(COUNT, BroadPhaseChoice::Auto);
     change(&mut scene);
-    let start = World::new(&scene).expect("a valid scene");
+    measure_from(criterion, name, &World::new(&scene).expect("a valid scene"));
+}
+
+fn measure_from(criterion: &mut Criterion, name: &str, start: &World) {
     let run = |mut world: World| {
         (0..10).for_each(|_| world.step());
         world
@@ -52,6 +55,9 @@ fn needs(criterion: &mut Criterion) {
         scene.settings.drag = (0.1, 0.1);
     });
     measure(criterion, "the field", |_| {});
+    let mut field = World::new(&arena::arena(COUNT, BroadPhaseChoice::Auto)).expect("a valid scene");
+    field.keep_ledger();
+    measure_from(criterion, "the field, its ledger kept", &field);
     measure(criterion, "the field, friction and restitution set but not used", |scene| {
         scene.settings.friction = 0.5;
         scene.settings.restitution = 0.5;

@@ -3,14 +3,15 @@
 //! | what | file |
 //! |---|---|
 //! | calls and flags | [`cli`], [`arguments`] |
-//! | a scenario played to its end, and what is told of it | [`play`], [`report`], [`readings`], [`notable`] |
+//! | a scenario played to its end, and what is told of it | [`play`], [`report`], [`books`], [`readings`], [`notable`] |
 //! | what each call does | [`run`], [`check`], [`explain`], [`export`], [`words`], [`init`] |
-//! | how it is printed | [`output`], [`terminal`], [`progress`], [`clock`] |
+//! | how it is printed | [`output`], [`written`], [`terminal`], [`progress`], [`clock`] |
 //! | one test per scenario, pinned by a snapshot | [`harness`] |
 //!
 //! The physics is `choque-engine`'s, the language `choque-scripting`'s; here are files, clocks and terminals only.
 
 pub mod arguments;
+pub mod books;
 pub mod check;
 pub mod cli;
 pub mod clock;
@@ -28,6 +29,7 @@ pub mod report;
 pub mod run;
 pub mod terminal;
 pub mod words;
+pub mod written;
 
 pub use error::{Error, Verdict};
 // For `harness::main!`, which asserts from the crate it is used in.

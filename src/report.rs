@@ -2,8 +2,9 @@
 
 use choque_engine::{Work, World};
 use choque_scripting::{Expectation, Scenario};
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Serialize, Serializer};
 
+use crate::books::Books;
 use crate::readings::Readings;
 
 /// The outcome of a run. The order of the fields is the order in the output.
@@ -37,6 +38,9 @@ pub struct Report {
     pub bodies: Vec<BodyReport>,
     /// What the script expected, and whether it held.
     pub expectations: Vec<Judgement>,
+    /// What changed the energy and the momenta, where it was kept account of.
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "plainly")]
+    pub ledger: Option<Books>,
     /// Counted work.
     pub work: Work,
 }
@@ -83,7 +87,7 @@ impl Report {
     /// What the world of a scenario looks like at the end of its run.
     #[must_use]
     pub fn new(scenario: &Scenario, world: &World, expectations: Vec<Expectation>) -> Self {
-        let momentum = world.momentum();
+        let [kinetic_energy, momentum_x, momentum_z, angular_momentum] = world.totals().to_array().map(positive_zero);
         Report {
             scenario: scenario.name().to_owned(),
             title: scenario.title(),
@@ -91,13 +95,14 @@ impl Report {
             steps: world.iteration(),
             time: positive_zero(world.time()),
             collisions: world.collisions(),
-            kinetic_energy: positive_zero(world.kinetic_energy()),
-            momentum: [positive_zero(momentum.x), positive_zero(momentum.y)],
-            angular_momentum: positive_zero(world.angular_momentum()),
+            kinetic_energy,
+            momentum: [momentum_x, momentum_z],
+            angular_momentum,
             deepest: positive_zero(world.deepest()),
             digest: hexadecimal(world.digest()),
             bodies: bodies(world),
             expectations: expectations.into_iter().map(Judgement::from).collect(),
+            ledger: world.ledger().map(|ledger| Books::of(&ledger)),
             work: *world.work(),
         }
     }
@@ -118,6 +123,14 @@ impl Report {
     #[must_use]
     pub fn holds(&self) -> bool {
         self.expectations.iter().all(|judgement| judgement.held)
+    }
+}
+
+/// What is there, without a word that it could be missing.
+fn plainly<S: Serializer>(books: &Option<Books>, serializer: S) -> Result<S::Ok, S::Error> {
+    match books {
+        Some(books) => books.serialize(serializer),
+        None => serializer.serialize_unit(),
     }
 }
 

@@ -6,6 +6,7 @@ use choque_engine::{Hit, World, note};
 use choque_scripting::Scenario;
 
 use crate::arguments::ScenarioArguments;
+use crate::output::rows::{self, Rows};
 use crate::output::{json, ron, text};
 use crate::play::{FirstMeetings, Watch, play};
 use crate::progress::Progress;
@@ -23,6 +24,9 @@ pub struct RunArguments {
     /// Print the whole plan and the counted work too
     #[arg(short, long)]
     pub verbose: bool,
+    /// Write what each exchange changed of energy and momenta, and by what cause: a row each, as CSV
+    #[arg(long, value_name = "FILE")]
+    pub ledger: Option<PathBuf>,
     /// Overrides and folders.
     #[command(flatten)]
     pub scenario: ScenarioArguments,
@@ -47,13 +51,20 @@ const MEETINGS: usize = 6;
 /// # Errors
 /// A scenario that cannot be loaded or run; output that cannot be written.
 pub fn run(arguments: &RunArguments) -> Result<Verdict, Error> {
+    if let Some(path) = &arguments.ledger {
+        rows::LEDGER.check(path)?;
+    }
     let scenario = Scenario::load(&arguments.file, &arguments.scenario.options())?;
     let mut run = scenario.start()?;
+    run.keep_ledger();
     tell_notes(&scenario, &run.world());
-    let mut watcher =
-        Watcher { meetings: FirstMeetings::new(MEETINGS), progress: Progress::new(run.world().plan().steps) };
+    let mut watcher = Watcher {
+        meetings: FirstMeetings::new(MEETINGS),
+        rows: arguments.ledger.as_ref().map(|_| Rows::begin()),
+        progress: Progress::new(run.world().plan().steps),
+    };
     let played = play(&mut run, &mut watcher);
-    let Watcher { meetings, progress } = watcher;
+    let Watcher { meetings, rows, progress } = watcher;
     drop(progress); // clears its line before anything else is printed
     let expectations = played?;
     let world = run.world();
@@ -63,6 +74,9 @@ pub fn run(arguments: &RunArguments) -> Result<Verdict, Error> {
             message: format!("the {total} is beyond the range of numbers, though no single body is"),
             hint: "look for a huge mass or velocity".to_owned(),
         });
+    }
+    if let Some((rows, path)) = rows.zip(arguments.ledger.as_ref()) {
+        rows.write(path)?;
     }
     match arguments.format {
         Format::Text => {
@@ -78,12 +92,16 @@ pub fn run(arguments: &RunArguments) -> Result<Verdict, Error> {
 
 struct Watcher {
     meetings: FirstMeetings,
+    rows: Option<Rows>,
     progress: Progress,
 }
 
 impl Watch for Watcher {
     fn iteration(&mut self, world: &World, hits: &[Hit]) {
         self.meetings.iteration(world, hits);
+        if let Some(rows) = &mut self.rows {
+            rows.iteration(world, hits);
+        }
         self.progress.reached(world.iteration());
     }
 }

@@ -1,7 +1,7 @@
 //! Commands (§2.1, step 1): what the user of a world may do to its bodies between iterations.
 
 use crate::area::Vec2;
-use crate::bodies::{Motion, Role};
+use crate::bodies::Role;
 use crate::check;
 use crate::error::CommandError;
 use crate::push::Push;
@@ -18,7 +18,8 @@ impl World {
         self.finite(id, "z", position.y)?;
         self.interrupt(id.index());
         self.part_seams(id);
-        self.bodies.place(id.index(), position - self.plan.origin);
+        let o = position - self.plan.origin;
+        self.command(id.index(), |bodies| bodies.place(id.index(), o));
         Ok(())
     }
 
@@ -30,7 +31,7 @@ impl World {
         self.finite(id, "angle", angle)?;
         self.interrupt(id.index());
         self.part_seams(id);
-        self.bodies.set_angle(id.index(), angle);
+        self.command(id.index(), |bodies| bodies.set_angle(id.index(), angle));
         Ok(())
     }
 
@@ -42,7 +43,7 @@ impl World {
         self.finite(id, "vx", velocity.x)?;
         self.finite(id, "vz", velocity.y)?;
         self.interrupt(id.index());
-        self.bodies.motion[id.index()].v = velocity;
+        self.command(id.index(), |bodies| bodies.motion[id.index()].v = velocity);
         self.give_physics(id);
         self.movers.end_course(id.index());
         Ok(())
@@ -55,7 +56,7 @@ impl World {
     pub fn set_spin(&mut self, id: BodyId, spin: f64) -> Result<(), CommandError> {
         self.finite(id, "spin", spin)?;
         self.interrupt(id.index());
-        self.bodies.motion[id.index()] = Motion { omega: spin, ..self.bodies.motion[id.index()] };
+        self.command(id.index(), |bodies| bodies.motion[id.index()].omega = spin);
         self.give_physics(id);
         self.movers.end_swing(id.index());
         Ok(())

@@ -12,6 +12,7 @@
 //! | relocate | [`relocate`] | §2.4 |
 //! | exchange | [`exchange`] | §2.5 |
 //! | totals, digest | [`totals`] | |
+//! | what changed them, and why | [`ledger`] | |
 //!
 //! The engine does no IO, reads no clock, draws no random numbers and knows no script. It gives the same bits in
 //! debug and release and on every platform: f64, `+ − × ÷ √` and the `libm` crate only, and the order of creation
@@ -53,6 +54,7 @@ pub mod flight;
 pub mod forces;
 pub mod frame;
 pub mod impact_time;
+pub mod ledger;
 pub mod load;
 pub mod note;
 pub mod plan;
@@ -70,6 +72,7 @@ pub use area::{Extent, Rect, Vec2};
 pub use check::BadNumber;
 pub use error::{CommandError, Fault, SceneError};
 pub use exchange::PairKind;
+pub use ledger::Ledger;
 pub use note::Note;
 pub use plan::Plan;
 pub use scene::Scene;

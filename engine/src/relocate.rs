@@ -21,6 +21,12 @@ pub struct Placed {
     pub point: Vec2,
 }
 
+/// The body of a contact that is moved: the reference if it is mobile, else the vertex's owner.
+#[must_use]
+pub fn moved(bodies: &Bodies, contact: &Contact) -> usize {
+    if bodies.is_mobile(contact.reference) { contact.reference } else { contact.owner }
+}
+
 /// Moves the reference if it is mobile, else the vertex's owner, by (depth + ε) along the face's normal.
 pub fn separate(bodies: &mut Bodies, contact: &Contact, epsilon: f64) -> Placed {
     let Contact { owner, reference, vertex, on_face, face, depth } = *contact;

@@ -6,7 +6,7 @@
 //! | broad phase | [`BroadPhase::visit`](crate::broad_phase::BroadPhase::visit) | §2.3 |
 //! | detect | [`detect::vertices`], or [`detect::complete`] | §2.3 |
 //! | relocate | [`relocate::separate`] | §2.4 |
-//! | exchange | [`document::exchange`], or [`impulse::act`] | §2.5 |
+//! | exchange | [`document::exchange`], or [`impulse::act`](crate::exchange::impulse::act) | §2.5 |
 
 use crate::advance::{advance, frame_before, is_finite};
 use crate::area::Vec2;
@@ -15,8 +15,9 @@ use crate::check::shown;
 use crate::detect;
 use crate::error::Fault;
 use crate::exchange::document::Losses;
-use crate::exchange::{PairKind, document, impulse};
+use crate::exchange::{PairKind, document};
 use crate::forces::Flight;
+use crate::ledger::Handing;
 use crate::plan::{ExchangePlan, FlightPlan};
 use crate::push::apply_pushes;
 use crate::relocate;
@@ -62,6 +63,9 @@ impl World {
     pub fn begin(&mut self) {
         self.listed.clear();
         self.treated = 0;
+        if let Some(ledger) = &mut self.ledger {
+            ledger.begin();
+        }
         if self.fault.is_some() {
             return;
         }
@@ -99,10 +103,17 @@ impl World {
 
     /// Commands and advance (§2.1).
     fn advance(&mut self) {
-        let World { plan, bodies, movers, pushes, work, .. } = self;
+        let World { plan, bodies, movers, pushes, work, ledger, .. } = self;
         let dt = plan.time_step;
         self.advances += 1;
         let time = self.advances as f64 * dt;
+        let acts = plan.flight != FlightPlan::Free || !pushes.is_empty();
+        if let Some(ledger) = ledger {
+            ledger.at(time);
+            if acts {
+                ledger.set_out(bodies, &movers.mobile);
+            }
+        }
         let lost = advance(bodies, movers, plan.flight, dt, time, work);
         if !pushes.is_empty() {
             let (linear, angular) = match plan.flight {
@@ -110,8 +121,11 @@ impl World {
                 FlightPlan::Forced { linear, angular, .. } => (linear, angular),
             };
             apply_pushes(bodies, pushes, linear, angular);
-            pushes.clear();
         }
+        if let Some(ledger) = ledger.as_mut().filter(|_| acts) {
+            ledger.book_step(bodies, &movers.mobile, plan.flight, dt, pushes);
+        }
+        pushes.clear();
         if let Some(body) = lost {
             self.report_fault(body);
         }
@@ -165,11 +179,19 @@ impl World {
 
     /// The document's way (§2.4, §2.5).
     fn relocate_and_exchange(&mut self, a: BodyId, b: BodyId, epsilon: f64, losses: Losses) -> Option<Exchanged> {
-        let World { plan, bodies, sides, work, .. } = self;
+        let World { plan, bodies, sides, work, ledger, .. } = self;
         let contact = detect::contact(plan.detection, bodies, (a.index(), b.index()), sides, work)?;
+        let moved = relocate::moved(bodies, &contact);
+        let stood = bodies.frame[moved].o;
         let placed = relocate::separate(bodies, &contact, epsilon);
         work.relocations += 1;
-        let kind = document::exchange(bodies, &placed, losses)?;
+        let relocation = (moved, stood, contact.depth + epsilon);
+        let handing = ledger.as_ref().map(|_| Handing::new(bodies, &placed, relocation, losses));
+        let kind = document::exchange(bodies, &placed, losses);
+        if let Some((ledger, handing)) = ledger.as_mut().zip(handing) {
+            ledger.book_handings(bodies, &[handing]);
+        }
+        let kind = kind?;
         Some(Exchanged { point: placed.point, normal: placed.normal, depth: contact.depth, kind })
     }
 
@@ -177,9 +199,9 @@ impl World {
     fn exchange_impulses(&mut self, a: BodyId, b: BodyId) -> Option<Exchanged> {
         let World { plan, bodies, sides, work, .. } = self;
         let manifold = detect::manifold(plan.detection, bodies, (a.index(), b.index()), sides, work)?;
-        let (normal, point) = impulse::act(bodies, &manifold)?;
-        let kind = PairKind::of(bodies.role[a.index()], bodies.role[b.index()]);
-        Some(Exchanged { point, normal, depth: manifold.depth, kind })
+        let act = self.act(&manifold)?;
+        let kind = PairKind::of(self.bodies.role[a.index()], self.bodies.role[b.index()]);
+        Some(Exchanged { point: act.middle, normal: act.normal, depth: manifold.depth, kind })
     }
 
     pub(crate) fn moves_finitely(&self, body: usize) -> bool {

@@ -12,6 +12,7 @@ use crate::detect::seams::Seams;
 use crate::detect::sides::Sides;
 use crate::directory::Directory;
 use crate::error::{Fault, SceneError};
+use crate::ledger::Ledger;
 use crate::load;
 use crate::plan::{ExchangePlan, MotionPlan, Plan};
 use crate::push::Push;
@@ -51,6 +52,8 @@ pub struct World {
     pub(crate) work: Work,
     /// What continuous motion keeps; a stepped world has none.
     pub(crate) continuous: Option<Box<Continuous>>,
+    /// The books, once they are asked for.
+    pub(crate) ledger: Option<Box<Ledger>>,
     pub(crate) directory: Directory,
 }
 
@@ -77,6 +80,7 @@ impl World {
         };
         Ok(World {
             continuous,
+            ledger: None,
             broad_phase: BroadPhase::new(plan.broad_phase),
             plan,
             bodies,

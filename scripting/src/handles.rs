@@ -1,4 +1,4 @@
-//! What scripts hold in their hands: a body, the world, a hit.
+//! What scripts hold in their hands: a body, the world, its ledger, a hit.
 
 /// A body, by its order of creation; while the scene is built and while it runs alike.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -9,6 +9,17 @@ pub(crate) struct Body {
 /// The world of the session.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct World;
+
+/// The ledger of the world.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Ledger;
+
+/// What the ledger has on one quantity.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Account {
+    /// Its place among the quantities.
+    pub(crate) quantity: usize,
+}
 
 /// One exchange, as `on_collision` gets it.
 #[derive(Clone, Copy, Debug)]

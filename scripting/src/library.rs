@@ -101,6 +101,11 @@ impl Library {
         self.texts.borrow().values().map(|text| format!("{text}\n")).collect()
     }
 
+    /// Whether a word stands anywhere in the scripts read so far.
+    pub(crate) fn speaks_of(&self, word: &str) -> bool {
+        self.texts.borrow().values().any(|text| text.contains(word))
+    }
+
     /// The text of a script read before.
     pub(crate) fn text(&self, name: &str) -> Option<String> {
         self.texts.borrow().get(name).cloned()

@@ -142,6 +142,8 @@ pub(crate) fn kind_named(type_name: &str) -> &'static str {
         "Body" => "a body",
         "World" => "the world",
         "Hit" => "a hit",
+        "Ledger" => "the ledger",
+        "Account" => "an account of the ledger",
         _ => "a value of another kind",
     }
 }

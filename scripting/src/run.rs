@@ -53,7 +53,11 @@ impl Run {
         Run { world: Rc::new(RefCell::new(world)), steps, is_done: steps == 0, hits: Vec::new(), source }
     }
 
-    pub(crate) fn scripted(script: Script, world: World, scene: &Scene) -> Self {
+    /// A run of a script. The ledger is kept when the script reads it: without the word no script can.
+    pub(crate) fn scripted(script: Script, mut world: World, scene: &Scene) -> Self {
+        if script.speaks_of("ledger") {
+            world.keep_ledger();
+        }
         let world = Rc::new(RefCell::new(world));
         script.enter(world.clone());
         let failures = script.pending.iter().map(|_| None).collect();
@@ -66,6 +70,11 @@ impl Run {
     #[must_use]
     pub fn world(&self) -> Ref<'_, World> {
         self.world.borrow()
+    }
+
+    /// Has the world keep a ledger from now on ([`World::keep_ledger`]).
+    pub fn keep_ledger(&mut self) {
+        self.world.borrow_mut().keep_ledger();
     }
 
     /// The exchanges of the last iteration, in order.

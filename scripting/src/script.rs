@@ -68,6 +68,11 @@ impl Script {
         self.session.borrow_mut().phase = Phase::Running(Running::new(world));
     }
 
+    /// Whether a word stands anywhere in it, or in what it imports at its top.
+    pub(crate) fn speaks_of(&self, word: &str) -> bool {
+        self.library.speaks_of(word)
+    }
+
     /// Calls a callback of the script.
     pub(crate) fn call(&self, callback: &str, arguments: &mut [Dynamic]) -> Result<Dynamic, Diagnostic> {
         self.clock.restart();

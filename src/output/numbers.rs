@@ -10,6 +10,18 @@ pub fn short(number: f64) -> String {
     }
 }
 
+/// A number in four figures, as one says it: `412.5`, `2856000`, `1.177e7`.
+#[must_use]
+pub fn rough(number: f64) -> String {
+    let figures = format!("{number:.3e}");
+    match figures.parse::<f64>() {
+        Ok(0.0) => "0".to_owned(),
+        Ok(rounded) if (1e-3..1e7).contains(&rounded.abs()) => rounded.to_string(),
+        Ok(rounded) => format!("{rounded:e}"),
+        Err(_) => figures,
+    }
+}
+
 /// A duration in the unit that suits it: `8.33 ms`, `5 s`.
 #[must_use]
 pub fn duration(seconds: f64) -> String {
@@ -53,6 +65,22 @@ mod tests {
             [(0.0, "0"), (-0.0, "0"), (2.5, "2.5000"), (-1e-9, "-1.000e-9"), (1.2e9, "1.200e9"), (0.001, "0.0010")];
         for (number, text) in expected {
             assert_eq!(short(number), text);
+        }
+    }
+
+    #[test]
+    fn rough_numbers_have_four_figures() {
+        let expected = [
+            (0.0, "0"),
+            (-0.0, "0"),
+            (13.5, "13.5"),
+            (2_855_972.6, "2856000"),
+            (11_771_809.0, "1.177e7"),
+            (-2e-9, "-2e-9"),
+            (0.1 + 0.2, "0.3"),
+        ];
+        for (number, text) in expected {
+            assert_eq!(rough(number), text);
         }
     }
 

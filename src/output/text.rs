@@ -4,6 +4,7 @@ use choque_engine::scene::{Kind, Scene};
 use choque_engine::{BodyId, World};
 
 use crate::notable::{Notable, notable};
+use crate::output::ledger;
 use crate::output::numbers::{counted, duration, short, trimmed};
 use crate::output::table::{Side, table};
 use crate::play::Meeting;
@@ -41,8 +42,11 @@ pub fn summary(told: &Told<'_>, verbose: bool) -> String {
         text += &format!("  {}\n", styled(FAINT, &format!("left out: {}", world.plan().left_out().join(", "))));
     }
     text += &format!("\n{}\n{}", length(world, report), bodies(scene, world));
-    text += &format!("\n{}{}", totals(report), first_meetings(world, meetings, report.collisions));
+    text += &format!("\n{}{}", totals(report, world), first_meetings(world, meetings, report.collisions));
     text += &expectations(&report.expectations);
+    if let Some(books) = report.ledger.as_ref().filter(|_| verbose) {
+        text += &format!("\n{}", ledger::whole(books, world));
+    }
     if verbose {
         text += &format!("\n{}\n{}", styled(HEADING, "Counted work"), indented(&world.work().to_string()));
     }
@@ -102,13 +106,14 @@ fn row(world: &World, id: BodyId) -> Vec<String> {
     row
 }
 
-fn totals(report: &Report) -> String {
+fn totals(report: &Report, world: &World) -> String {
     let [px, pz] = report.momentum.map(short);
     format!(
-        "{}\nkinetic energy {} J, momentum ({px}, {pz}) kg·m/s, angular momentum {} kg·m²/s\ndeepest overlap {} m\n",
+        "{}\nkinetic energy {} J, momentum ({px}, {pz}) kg·m/s, angular momentum {} kg·m²/s\n{}deepest overlap {} m\n",
         counted(report.collisions as usize, "collision", "collisions"),
         short(report.kinetic_energy),
         short(report.angular_momentum),
+        report.ledger.as_ref().map_or_else(String::new, |books| ledger::sentences(books, world)),
         short(report.deepest),
     )
 }

@@ -4,6 +4,7 @@
 mod command;
 mod exact;
 mod harness;
+mod ledger;
 mod metamorphic;
 mod project;
 mod snapshots;

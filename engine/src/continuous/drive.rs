@@ -15,6 +15,7 @@ impl Continuous {
         };
         self.pulls.clear();
         self.free.clear();
+        self.holding.clear();
         if forces.is_none() && world.pushes.is_empty() && self.lasting.is_empty() {
             return;
         }
@@ -42,7 +43,7 @@ impl Continuous {
     pub(super) fn turn(&mut self, world: &mut World, at: usize) {
         let Some(which) = world.movers.prescribed.iter().position(|p| p.body == at) else { return };
         self.forecast.changed(at);
-        self.bring(&mut world.bodies, at);
+        self.bring(world, at);
         self.since[at] = self.now;
         self.prescribe(world, which, self.now);
         self.dirty.push(at as u32);

@@ -112,7 +112,7 @@ impl Continuous {
             return;
         };
         for body in [pair.0, pair.1] {
-            self.bring(&mut world.bodies, body as usize);
+            self.bring(world, body as usize);
         }
         if !holds_together(&world.bodies, pair.0 as usize, pair.1 as usize) {
             self.stuck.remove(at);

@@ -175,21 +175,22 @@ impl Support {
 pub(super) fn hold(state: &mut Continuous, world: &mut World, cluster: &[Key], after: After) {
     let bodies_of = bodies_of(cluster);
     for body in &bodies_of {
-        state.bring(&mut world.bodies, *body);
+        state.bring(world, *body);
     }
     let movers: Vec<usize> = bodies_of.iter().copied().filter(|body| world.bodies.is_mobile(*body)).collect();
     state.allow_pulls(world.bodies.len());
-    settle::settle(state, &mut world.bodies, &bodies_of);
+    world.settle(&bodies_of, |bodies| settle::settle(state, bodies, &bodies_of));
     for body in &movers {
         state.pulls[*body] = state.free[*body];
     }
-    let mut supports = supports(state, &mut world.bodies, cluster, after);
+    let mut supports = supports(state, world, cluster, after);
     let left = state.length - state.now;
     let span = if supports.is_empty() || left <= 0.0 {
         left
     } else {
         plan(state, &mut world.bodies, &mut supports, &movers, left)
     };
+    state.keep_forces(world, &movers, supports.iter().map(|support| (support.acts, support.force)));
     for body in &movers {
         state.changed(*body);
     }
@@ -199,9 +200,10 @@ pub(super) fn hold(state: &mut Continuous, world: &mut World, cluster: &[Key], a
 }
 
 /// Puts right at the end of a span what its forces have left undone: energy that they made, approach at the points.
-pub(super) fn settle(state: &mut Continuous, bodies: &mut Bodies, cluster: &[Key]) {
-    settle::settle(state, bodies, &bodies_of(cluster));
-    supports(state, bodies, cluster, After::Rest);
+pub(super) fn settle(state: &mut Continuous, world: &mut World, cluster: &[Key]) {
+    let bodies_of = bodies_of(cluster);
+    world.settle(&bodies_of, |bodies| settle::settle(state, bodies, &bodies_of));
+    supports(state, world, cluster, After::Rest);
 }
 
 fn bodies_of(cluster: &[Key]) -> Vec<usize> {
@@ -213,9 +215,10 @@ fn bodies_of(cluster: &[Key]) -> Vec<usize> {
 
 /// The points of those contacts of a cluster that still touch. What approaches after a span is stopped there; what approaches
 /// after a blow is left to strike.
-fn supports(state: &mut Continuous, bodies: &mut Bodies, cluster: &[Key], after: After) -> Vec<Support> {
+fn supports(state: &mut Continuous, world: &mut World, cluster: &[Key], after: After) -> Vec<Support> {
     let mut supports: Vec<Support> = Vec::with_capacity(2 * cluster.len());
     for key in cluster {
+        let bodies = &world.bodies;
         let Some((manifold, size)) = standing(bodies, *key, STANDING) else {
             state.let_part(*key);
             continue;
@@ -246,18 +249,18 @@ fn supports(state: &mut Continuous, bodies: &mut Bodies, cluster: &[Key], after:
     }
     supports.retain(|s| !s.comes());
     if after == After::Rest {
-        stop(bodies, &mut supports);
+        stop(world, &mut supports);
     }
     supports
 }
 
 /// Takes out what approach is left at the points, without restitution or friction.
-fn stop(bodies: &mut Bodies, supports: &mut [Support]) {
+fn stop(world: &mut World, supports: &mut [Support]) {
     let surface = Surface { restitution: 0.0, friction: 0.0 };
     let points: Vec<together::Point> = supports.iter().map(|s| together::Point { surface, ..s.moving.point }).collect();
-    together::exchange(bodies, &points);
+    world.act_together(&points, 0);
     for support in supports {
-        support.moving = Moving::of(bodies, support.moving.point);
+        support.moving = Moving::of(&world.bodies, support.moving.point);
     }
 }
 

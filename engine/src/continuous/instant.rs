@@ -12,8 +12,9 @@ use crate::detect::manifold::{Manifold, Placed};
 use crate::detect::{Contact, touch};
 use crate::exchange::document::{self, Losses};
 use crate::exchange::{PairKind, impulse, together};
+use crate::ledger::Handing;
 use crate::plan::ExchangePlan;
-use crate::relocate::{self, separate};
+use crate::relocate::{self, moved, separate};
 use crate::scene::Detection;
 use crate::step::Hit;
 use crate::world::{BodyId, World};
@@ -22,9 +23,10 @@ impl Continuous {
     /// Exchanges at every touch of an instant; the hits are told in the order of their pairs.
     pub(super) fn treat_instant(&mut self, world: &mut World, touches: &mut [Pair]) {
         for pair in touches.iter() {
-            self.bring(&mut world.bodies, pair.a as usize);
-            self.bring(&mut world.bodies, pair.b as usize);
+            self.bring(world, pair.a as usize);
+            self.bring(world, pair.b as usize);
         }
+        self.keep_time(world);
         let mut rest_of = touches;
         while !rest_of.is_empty() {
             let connected = bring_together(&world.bodies, rest_of);
@@ -62,13 +64,19 @@ impl Continuous {
             group.iter().flat_map(|p| [p.a, p.b]).map(|b| world.bodies.motion[b as usize]).collect();
         let mut sums: Vec<(usize, Motion, Motion)> = Vec::new();
         let mut placed_all = Vec::with_capacity(group.len());
+        let mut handings = Vec::new();
         for (k, pair) in group.iter().enumerate() {
             let bodies = &mut world.bodies;
             let contact = contact_of(bodies, pair, world.plan.detection);
+            let moved = moved(bodies, &contact);
+            let stood = bodies.frame[moved].o;
             let placed = separate(bodies, &contact, epsilon);
             world.work.relocations += 1;
             for (which, body) in [pair.a as usize, pair.b as usize].into_iter().enumerate() {
                 bodies.motion[body] = before[2 * k + which];
+            }
+            if world.ledger.is_some() {
+                handings.push(Handing::new(bodies, &placed, (moved, stood, contact.depth + epsilon), losses));
             }
             let kind = document::exchange(bodies, &placed, losses);
             for (which, body) in [pair.a as usize, pair.b as usize].into_iter().enumerate() {
@@ -88,6 +96,9 @@ impl Continuous {
         for (body, _, motion) in sums {
             world.bodies.motion[body] = motion;
         }
+        if let Some(ledger) = &mut world.ledger {
+            ledger.book_handings(&world.bodies, &handings);
+        }
         for (pair, placed) in group.iter().zip(&placed_all) {
             if approaches(&world.bodies, placed) {
                 self.hold_stuck((pair.a, pair.b));
@@ -102,21 +113,23 @@ impl Continuous {
         let softened = lasting::soften(self, &world.bodies, &manifolds);
         let held = self.held_with(world, group);
         let acted = match (&manifolds[..], softened) {
-            ([manifold], false) if held.is_empty() => impulse::act(&mut world.bodies, manifold).is_some(),
+            ([manifold], false) if held.is_empty() => world.act(manifold).is_some(),
             _ => {
                 if !softened
                     && held.is_empty()
                     && let Some(hits) = in_turn(&mut world.bodies, &manifolds)
                 {
                     for k in hits {
+                        world.act(&manifolds[k]);
                         self.tell_of(world, &group[k], &manifolds[k]);
                     }
                     return;
                 }
                 let mut points: Vec<together::Point> =
                     manifolds.iter().flat_map(|m| points(&world.bodies, m, softened)).collect();
+                let told = points.len();
                 points.extend(held);
-                together::exchange(&mut world.bodies, &points)
+                world.act_together(&points, told)
             }
         };
         if !acted {
@@ -196,8 +209,8 @@ fn bring_together(bodies: &Bodies, touches: &mut [Pair]) -> usize {
 
 /// Exchanges at several touches one after the other, again and again until none approaches, if first to last and last
 /// to first come to the same: then there is an order in it, though not in time (equal rods that meet three at once hand their
-/// motions through). Gives the touches in the order in which they acted; `None`, and nothing is changed, when the order
-/// would decide.
+/// motions through). Gives the touches in the order in which they are to act; `None` when the order would decide. The bodies
+/// are as they were, either way.
 fn in_turn(bodies: &mut Bodies, manifolds: &[Manifold]) -> Option<Vec<usize>> {
     let involved: Vec<usize> = manifolds.iter().flat_map(|m| [m.reference, m.owner]).collect();
     let before: Vec<Motion> = involved.iter().map(|body| bodies.motion[*body]).collect();
@@ -226,13 +239,9 @@ fn in_turn(bodies: &mut Bodies, manifolds: &[Manifold]) -> Option<Vec<usize>> {
         let size = 1e-12 * (a.v.norm() + b.v.norm() + a.omega.abs() + b.omega.abs());
         (a.v - b.v).norm() <= size && (a.omega - b.omega).abs() <= size
     };
-    match outcomes {
-        Some((one, two)) if one.1.iter().zip(&two.1).all(|(a, b)| alike(a, b)) => Some(two.0),
-        _ => {
-            restore(bodies, &before);
-            None
-        }
-    }
+    restore(bodies, &before);
+    let (one, two) = outcomes?;
+    one.1.iter().zip(&two.1).all(|(a, b)| alike(a, b)).then_some(two.0)
 }
 
 fn rect(bodies: &Bodies, body: u32, rect: u32) -> Rect {

@@ -56,9 +56,9 @@ impl Continuous {
     /// Lets all contacts that are closed around a pair act together, without restitution.
     fn unjam(&mut self, world: &mut World, pair: &Pair) {
         for body in 0..world.bodies.len() {
-            self.bring(&mut world.bodies, body);
+            self.bring(world, body);
         }
-        let bodies = &mut world.bodies;
+        let bodies = &world.bodies;
         let mut points = Vec::new();
         let mut around = vec![pair.a, pair.b];
         let mut next = 0;
@@ -76,10 +76,10 @@ impl Continuous {
                 points.extend(closed);
             }
         }
-        together::exchange(bodies, &points);
+        world.act_together(&points, 0);
         for &body in &around {
             self.hit_at[body as usize].1 = 0;
-            if bodies.is_mobile(body as usize) {
+            if world.bodies.is_mobile(body as usize) {
                 self.changed(body as usize);
                 self.struck.push(body);
             }

@@ -147,7 +147,7 @@ impl Continuous {
     /// Whether a lasting contact begins at two rectangles.
     fn begins(&mut self, world: &mut World, key: Key) -> bool {
         for body in [key.0, key.1] {
-            self.bring(&mut world.bodies, body as usize);
+            self.bring(world, body as usize);
         }
         let bodies = &world.bodies;
         let Some((manifold, size)) = standing(bodies, key, BAND) else { return false };
@@ -168,7 +168,7 @@ impl Continuous {
         let mut points = Vec::new();
         for key in keys.into_iter().filter(|key| !in_group(key)) {
             for body in [key.0, key.1] {
-                self.bring(&mut world.bodies, body as usize);
+                self.bring(world, body as usize);
                 self.struck.push(body);
             }
             if let Some((manifold, _)) = standing(&world.bodies, key, hold::STANDING) {
@@ -205,9 +205,9 @@ impl Continuous {
     }
 
     /// At the end of a segment: what spans have left undone is put right before anyone looks.
-    pub(super) fn settle_all(&mut self, bodies: &mut Bodies) {
-        for cluster in clusters(&self.lasting, bodies) {
-            hold::settle(self, bodies, &cluster);
+    pub(super) fn settle_all(&mut self, world: &mut World) {
+        for cluster in clusters(&self.lasting, &world.bodies) {
+            hold::settle(self, world, &cluster);
         }
     }
 

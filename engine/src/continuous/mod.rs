@@ -18,6 +18,7 @@
 //! less than [`crate::impact_time::STILL`] of the speeds involved does not come. Bodies that are hit again and again without time
 //! going on are [jammed](jam).
 
+mod books;
 mod drive;
 mod forecast;
 mod foresight;
@@ -33,6 +34,7 @@ use crate::broad_phase::Sweeping;
 use crate::flight::{Path, Pull};
 use crate::step::Hit;
 use crate::world::World;
+use books::{Fliers, Holding};
 use forecast::{Event, Forecast, Pair, What};
 use lasting::Key;
 use neighbours::Neighbours;
@@ -53,6 +55,8 @@ pub(crate) struct Continuous {
     /// The same without what holds those in lasting contact, and what that has done to each since it was settled.
     free: Vec<Pull>,
     held: Vec<Held>,
+    /// What holds each, as the ledger wants it; empty where none is kept.
+    holding: Vec<Holding>,
     /// The time to which each body has flown, from the segment's start \[s\].
     since: Vec<f64>,
     /// Which segment of the iteration it is, of how many.
@@ -111,6 +115,7 @@ impl Continuous {
             pulls: Vec::new(),
             free: Vec::new(),
             held: Vec::new(),
+            holding: Vec::new(),
             since: vec![0.0; count],
             segment: (0, 1),
             length: 0.0,
@@ -158,10 +163,12 @@ impl Continuous {
     }
 
     /// Moves a body to where it is now.
-    fn bring(&mut self, bodies: &mut Bodies, body: usize) {
+    fn bring(&mut self, world: &mut World, body: usize) {
         let late = self.now - self.since[body];
         if late > 0.0 {
-            self.fly(bodies, body, late);
+            self.set_out(world, Fliers::One(body as u32));
+            self.fly(&mut world.bodies, body, late);
+            self.arrive(world, Fliers::One(body as u32), self.now);
             self.since[body] = self.now;
         }
     }
@@ -326,6 +333,7 @@ impl Continuous {
 
     /// Every body flies to the segment's end.
     fn end_segment(&mut self, world: &mut World) {
+        self.set_out(world, Fliers::All);
         let World { bodies, movers, work, .. } = world;
         let mut lost = None;
         for &body in movers.mobile.iter().chain(&movers.fixed) {
@@ -339,10 +347,11 @@ impl Continuous {
         if !self.pulls.is_empty() {
             work.bodies_forced += movers.mobile.len() as u64;
         }
+        self.arrive(world, Fliers::All, self.length);
         self.segment.0 += 1;
         self.since.fill(0.0);
         self.now = 0.0;
-        self.settle_all(bodies);
+        self.settle_all(world);
         if let Some(body) = lost {
             world.report_fault(body);
         } else if self.segment.0 < self.segment.1 {
@@ -351,6 +360,7 @@ impl Continuous {
         }
         self.phase = Phase::Late(0);
         world.advances += 1;
+        self.keep_time(world);
         let time = world.advances as f64 * world.plan.time_step;
         for prescription in &world.movers.prescribed {
             prescription.apply(&mut world.bodies, time);
@@ -372,7 +382,7 @@ impl World {
         let Some(mut state) = self.continuous.take() else { return };
         state.struck.push(body as u32);
         if state.phase == Phase::Flying {
-            state.bring(&mut self.bodies, body);
+            state.bring(self, body);
             state.changed(body);
         }
         self.continuous = Some(state);

@@ -56,29 +56,74 @@ impl Party {
 
 /// Exchanges motion between the two bodies of a contact; `None` when an arm is zero and nothing happens.
 pub fn exchange(bodies: &mut Bodies, placed: &Placed, losses: Losses) -> Option<PairKind> {
-    // Reading R7 wants the fixed body, where there is one, as body 1.
-    let (one, two) = if bodies.is_mobile(placed.owner) {
-        ((placed.reference, placed.r_reference), (placed.owner, placed.r_owner))
-    } else {
-        ((placed.owner, placed.r_owner), (placed.reference, placed.r_reference))
-    };
-    let party1 = Party::new(bodies.motion[one.0], one.1)?;
-    let party2 = Party::new(bodies.motion[two.0], two.1)?;
-    let kind = PairKind::of(bodies.role[one.0], bodies.role[two.0]);
-    match kind {
-        PairKind::Mobile => {
-            let (m1, m2) = (bodies.inertia[one.0].mass, bodies.inertia[two.0].mass);
-            bodies.motion[one.0] = after(&party1, handed_over(&party2, &party1, m2 / m1, losses));
-            bodies.motion[two.0] = after(&party2, handed_over(&party1, &party2, m1 / m2, losses));
-        }
-        PairKind::FixedWithPhysics => {
-            bodies.motion[two.0] = after(&party2, handed_over(&party1, &party2, INFINITE_OVER_FINITE, losses));
-        }
-        PairKind::Fixed => {
-            bodies.motion[two.0] = Motion { v: party2.v_across(), omega: -party2.omega };
-        }
+    let meeting = Meeting::of(bodies, placed);
+    let [one, two] = meeting.outcome(meeting.motions(bodies), losses)?;
+    bodies.motion[meeting.one.0] = one;
+    bodies.motion[meeting.two.0] = two;
+    Some(meeting.kind)
+}
+
+/// How many motions [`stages`] tells of.
+pub(crate) const STAGES: usize = 5;
+
+/// The exchange in steps that each add one thing: the motions before; with nothing lost and the fixed body, if there is one,
+/// taken to be at rest; with its motion; with μ_L; with μ_A, which is what [`exchange`] does. With the two bodies, in the
+/// order of the motions. `None` when an arm is zero.
+pub(crate) fn stages(bodies: &Bodies, placed: &Placed, losses: Losses) -> Option<([usize; 2], [[Motion; 2]; STAGES])> {
+    let meeting = Meeting::of(bodies, placed);
+    let before = meeting.motions(bodies);
+    let still = if meeting.kind == PairKind::FixedWithPhysics { [Motion::default(), before[1]] } else { before };
+    let nothing_lost = Losses { mu_l: 1.0, mu_a: 1.0 };
+    let of_rule = meeting.outcome(still, nothing_lost)?;
+    let with_motion = meeting.outcome(before, nothing_lost)?;
+    let with_mu_l = meeting.outcome(before, Losses { mu_a: 1.0, ..losses })?;
+    let with_mu_a = meeting.outcome(before, losses)?;
+    Some(([meeting.one.0, meeting.two.0], [before, of_rule, with_motion, with_mu_l, with_mu_a]))
+}
+
+/// Two bodies at a point of collision, each with its arm.
+struct Meeting {
+    one: (usize, Vec2),
+    two: (usize, Vec2),
+    kind: PairKind,
+    /// m1, m2.
+    masses: (f64, f64),
+}
+
+impl Meeting {
+    fn of(bodies: &Bodies, placed: &Placed) -> Self {
+        // Reading R7 wants the fixed body, where there is one, as body 1.
+        let (one, two) = if bodies.is_mobile(placed.owner) {
+            ((placed.reference, placed.r_reference), (placed.owner, placed.r_owner))
+        } else {
+            ((placed.owner, placed.r_owner), (placed.reference, placed.r_reference))
+        };
+        let kind = PairKind::of(bodies.role[one.0], bodies.role[two.0]);
+        Meeting { one, two, kind, masses: (bodies.inertia[one.0].mass, bodies.inertia[two.0].mass) }
     }
-    Some(kind)
+
+    fn motions(&self, bodies: &Bodies) -> [Motion; 2] {
+        [bodies.motion[self.one.0], bodies.motion[self.two.0]]
+    }
+
+    /// The motions after the exchange; a fixed body keeps its own.
+    fn outcome(&self, before: [Motion; 2], losses: Losses) -> Option<[Motion; 2]> {
+        let party1 = Party::new(before[0], self.one.1)?;
+        let party2 = Party::new(before[1], self.two.1)?;
+        Some(match self.kind {
+            PairKind::Mobile => {
+                let (m1, m2) = self.masses;
+                [
+                    after(&party1, handed_over(&party2, &party1, m2 / m1, losses)),
+                    after(&party2, handed_over(&party1, &party2, m1 / m2, losses)),
+                ]
+            }
+            PairKind::FixedWithPhysics => {
+                [before[0], after(&party2, handed_over(&party1, &party2, INFINITE_OVER_FINITE, losses))]
+            }
+            PairKind::Fixed => [before[0], Motion { v: party2.v_across(), omega: -party2.omega }],
+        })
+    }
 }
 
 /// m1/m2 of a body of infinite mass (reading R7): the one finite choice that goes over into §2.5.3.

@@ -49,12 +49,23 @@ enum Slip {
 impl Impact {
     /// The impulse of a hit at u = (u_t, u_n < 0), by Routh's process with Stronge's restitution.
     #[must_use]
-    pub fn impulse(&self, u_t: f64, u_n: f64, Surface { restitution, friction }: Surface) -> Components {
+    pub fn impulse(&self, u_t: f64, u_n: f64, surface: Surface) -> Components {
+        self.impulse_and_work(u_t, u_n, surface).0
+    }
+
+    /// The same with the work done on the normal motion: what compression took, less what was given back \[J\].
+    #[must_use]
+    pub fn impulse_and_work(
+        &self,
+        u_t: f64,
+        u_n: f64,
+        Surface { restitution, friction }: Surface,
+    ) -> (Components, f64) {
         let mut u = Components { t: u_t, n: u_n };
         let mut p = Components::default();
         let taken = self.grow(&mut u, &mut p, friction, Until::Compressed);
-        self.grow(&mut u, &mut p, friction, Until::Returned(-taken * restitution * restitution));
-        p
+        let returned = self.grow(&mut u, &mut p, friction, Until::Returned(-taken * restitution * restitution));
+        (p, taken + returned)
     }
 
     /// Lets the normal impulse grow until an end is reached; gives the work done on the normal motion.

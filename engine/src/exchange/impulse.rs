@@ -15,8 +15,8 @@
 //! part exactly so; with friction, sticking or sliding is decided at the end of the impact, and should that create
 //! energy, restitution is lowered until it does not.
 
-use super::flat::Flat;
-use super::impact::{Impact, Surface};
+use super::flat::{Flat, FlatImpulse};
+use super::impact::{Components, Impact, Surface};
 use crate::area::Vec2;
 use crate::bodies::{Bodies, Role};
 use crate::detect::manifold::{Manifold, Point};
@@ -30,6 +30,49 @@ pub struct Arms {
     pub r_i: Vec2,
     /// From the centre of j.
     pub r_j: Vec2,
+}
+
+impl Arms {
+    /// To the middle of two points.
+    pub(crate) fn middle([one, two]: &[Arms; 2]) -> Arms {
+        Arms { r_i: (one.r_i + two.r_i) * 0.5, r_j: (one.r_j + two.r_j) * 0.5 }
+    }
+}
+
+/// The impulses of an impact, on j and against i.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Given {
+    /// At one point, with the work done on the normal motion \[J\].
+    Point {
+        /// The point.
+        at: Arms,
+        /// The impulse.
+        p: Components,
+        /// What compression took, less what was given back.
+        normal_work: f64,
+    },
+    /// On a face, normal at its two ends and tangential halfway between.
+    Face {
+        /// The ends.
+        ends: [Arms; 2],
+        /// The impulses.
+        p: FlatImpulse,
+    },
+}
+
+/// An impact that happened.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Act {
+    /// The body that the normal points out of: the reference.
+    pub i: usize,
+    /// The other.
+    pub j: usize,
+    /// From i to j.
+    pub normal: Vec2,
+    /// The middle of its points, from the plan's origin \[m\].
+    pub middle: Vec2,
+    /// Its impulses.
+    pub given: Given,
 }
 
 /// One over the masses and moments of a pair; zero for a body that collisions do not move.
@@ -92,12 +135,11 @@ fn apply_both(bodies: &mut Bodies, (i, j): (usize, usize), inverse: &Inverse, at
     bodies.motion[j].omega += (cross(one.r_j, p[0]) + cross(two.r_j, p[1])) * inverse.moment_j;
 }
 
-/// Exchanges motion at the points of a manifold; gives the normal (out of the reference) and the middle of the points,
-/// or `None` when nothing approaches.
+/// Exchanges motion at the points of a manifold; `None` when nothing approaches.
 ///
 /// The point of contact lies halfway between the owner's point and the face it is in, the same for both bodies, so that
 /// momentum and angular momentum are kept whatever the depth.
-pub fn act(bodies: &mut Bodies, manifold: &Manifold) -> Option<(Vec2, Vec2)> {
+pub fn act(bodies: &mut Bodies, manifold: &Manifold) -> Option<Act> {
     let (reference, owner) = (manifold.reference, manifold.owner);
     let frame = bodies.frame[reference];
     let n = frame.outward(manifold.face.normal());
@@ -109,7 +151,8 @@ pub fn act(bodies: &mut Bodies, manifold: &Manifold) -> Option<(Vec2, Vec2)> {
     let surface = Surface::of_pair(bodies.surface[reference], bodies.surface[owner]);
     let points = &both[..points.len()];
     let middle = frame.o + points.iter().map(|at| at.r_i).sum::<Vec2>() / points.len() as f64;
-    exchange(bodies, (reference, owner), n, points, surface).then_some((n, middle))
+    let given = exchange(bodies, (reference, owner), n, points, surface)?;
+    Some(Act { i: reference, j: owner, normal: n, middle, given })
 }
 
 /// The arms of a point of a manifold whose normal is n, in world directions.
@@ -146,13 +189,19 @@ fn settle_rounding(
     apply_both(bodies, (i, j), &inverse, points, share.map(|p| n * p));
 }
 
-/// Exchanges motion at one or two points, `n` pointing from i to j. `false` when the bodies are parting at every
+/// Exchanges motion at one or two points, `n` pointing from i to j. `None` when the bodies are parting at every
 /// point and nothing happens.
-pub fn exchange(bodies: &mut Bodies, (i, j): (usize, usize), n: Vec2, points: &[Arms], surface: Surface) -> bool {
+pub fn exchange(
+    bodies: &mut Bodies,
+    (i, j): (usize, usize),
+    n: Vec2,
+    points: &[Arms],
+    surface: Surface,
+) -> Option<Given> {
     let inverse = Inverse::of(bodies, i, j);
     let t = -perp(n);
     if !points.iter().any(|at| approaches(bodies, i, j, at, n)) {
-        return false;
+        return None;
     }
     match *points {
         [at] => {
@@ -162,13 +211,13 @@ pub fn exchange(bodies: &mut Bodies, (i, j): (usize, usize), n: Vec2, points: &[
                 k_tn: inverse.response(&at, t, &at, n),
                 k_nn: inverse.response(&at, n, &at, n),
             };
-            let p = point.impulse(u.dot(&t), u.dot(&n), surface);
+            let (p, normal_work) = point.impulse_and_work(u.dot(&t), u.dot(&n), surface);
             apply(bodies, i, j, &inverse, &at, t * p.t + n * p.n);
-            true
+            Some(Given::Point { at, p, normal_work })
         }
         [one, two] => {
-            let mean = Arms { r_i: (one.r_i + two.r_i) * 0.5, r_j: (one.r_j + two.r_j) * 0.5 };
             let ends = [one, two];
+            let mean = Arms::middle(&ends);
             let face = Flat {
                 k_nn: ends.map(|row| ends.map(|column| inverse.response(&row, n, &column, n))),
                 k_nt: ends.map(|row| inverse.response(&row, n, &mean, t)),
@@ -182,8 +231,8 @@ pub fn exchange(bodies: &mut Bodies, (i, j): (usize, usize), n: Vec2, points: &[
             if surface.friction == 0.0 {
                 settle_rounding(bodies, (i, j), n, &ends, (u_n, p.n), surface.restitution);
             }
-            true
+            Some(Given::Face { ends, p })
         }
-        _ => false,
+        _ => None,
     }
 }

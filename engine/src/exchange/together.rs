@@ -49,9 +49,11 @@ pub(crate) enum Grip {
 
 /// Impulses or forces at a point, or velocities or accelerations there: along n, and along t = −perp(n).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Impulse {
-    pub(crate) n: f64,
-    pub(crate) t: f64,
+pub struct Impulse {
+    /// Along n.
+    pub n: f64,
+    /// Along t.
+    pub t: f64,
 }
 
 /// Rounds of improvement at most. Each point of two equal bodies gains a digit in about two; what a great ratio of masses
@@ -71,35 +73,37 @@ const HALVINGS: u32 = 40;
 /// (Painlevé's paradox).
 const LEAST_RESPONSE: f64 = 0.05;
 
-/// Exchanges motion at all points at once. `false` when nothing approaches at any of them.
-pub fn exchange(bodies: &mut Bodies, points: &[Point]) -> bool {
+/// Exchanges motion at all points at once; gives the impulse at each. `None` when nothing approaches at any of them.
+pub fn exchange(bodies: &mut Bodies, points: &[Point]) -> Option<Vec<Impulse>> {
     let before: Vec<Vec2> = points.iter().map(|p| relative_velocity(bodies, p.i, p.j, &p.arms)).collect();
     let comes = |bodies: &Bodies| points.iter().any(|p| approaches(bodies, p.i, p.j, &p.arms, p.n));
     if !comes(bodies) {
-        return false;
+        return None;
     }
     let start = involved(bodies, points);
     let mut attempt = |restitution: f64| {
         restore(bodies, &start);
         let impulses = solve(bodies, points, &newton(points, &before, restitution));
-        gain(bodies, points, &before, &impulses)
+        (gain(bodies, points, &before, &impulses), impulses)
     };
-    if attempt(1.0) > 0.0 {
+    let (gained, mut impulses) = attempt(1.0);
+    if gained > 0.0 {
         let (mut low, mut high) = (0.0, 1.0);
         for _ in 0..HALVINGS {
             let middle = 0.5 * (low + high);
-            *(if attempt(middle) <= 0.0 { &mut low } else { &mut high }) = middle;
+            *(if attempt(middle).0 <= 0.0 { &mut low } else { &mut high }) = middle;
         }
-        attempt(low);
+        impulses = attempt(low).1;
     }
     // What rounding has left of an approach would be found again at the same instant.
     for _ in 0..REFINEMENTS {
         if !comes(bodies) {
             break;
         }
-        solve(bodies, points, &newton(points, &before, 0.0));
+        let more = solve(bodies, points, &newton(points, &before, 0.0));
+        impulses.iter_mut().zip(more).for_each(|(p, more)| *p = Impulse { n: p.n + more.n, t: p.t + more.t });
     }
-    true
+    Some(impulses)
 }
 
 /// Newton's law at every point: to part at e times the approach, restitution counting by `share`.
@@ -112,7 +116,7 @@ fn newton(points: &[Point], before: &[Vec2], share: f64) -> Vec<Demand> {
 }
 
 /// The mobile bodies among the points', once each, with their motions.
-fn involved(bodies: &Bodies, points: &[Point]) -> Vec<(usize, Motion)> {
+pub(crate) fn involved(bodies: &Bodies, points: &[Point]) -> Vec<(usize, Motion)> {
     let mut all: Vec<usize> = points.iter().flat_map(|p| [p.i, p.j]).filter(|body| bodies.is_mobile(*body)).collect();
     all.sort_unstable();
     all.dedup();

@@ -1,10 +1,12 @@
 //! The document's model, held to worked values, to its formulas, and to itself.
 
+mod booked;
 mod collisions;
 mod continuous;
 mod crowds;
 mod impacts;
 mod laws;
+mod ledger;
 mod needs;
 mod overlaps;
 mod random_scenes;

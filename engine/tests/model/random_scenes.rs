@@ -21,13 +21,13 @@ impl Random {
         least + (greatest - least) * ((self.next() >> 11) as f64 / (1_u64 << 53) as f64)
     }
 
-    fn one_in(&mut self, n: u64) -> bool {
+    pub(crate) fn one_in(&mut self, n: u64) -> bool {
         self.next().is_multiple_of(n)
     }
 }
 
 /// A scene of 2 to 60 bodies of all sorts and sizes, some of them touching exactly, some far away.
-fn random_scene(seed: u64) -> Scene {
+pub(crate) fn random_scene(seed: u64) -> Scene {
     let mut random = Random(seed);
     let count = 2 + random.next() % 59;
     let arena = random.between(2.0, 30.0);

@@ -19,7 +19,7 @@ pub struct Word {
     pub signatures: Vec<String>,
     /// Its documentation, in Markdown; a paragraph for each way of writing it.
     pub docs: String,
-    /// `settings`, `bodies`, `expectations`, `callbacks`, `world`, `motion`, `random` or
+    /// `settings`, `bodies`, `expectations`, `callbacks`, `world`, `ledger`, `motion`, `random` or
     /// `mathematics`.
     pub group: &'static str,
 }
@@ -69,7 +69,7 @@ fn engines() -> impl Iterator<Item = (&'static str, Engine)> {
 
 /// A way of writing a word, as the engine knows it.
 struct Entry {
-    /// `body`, `world`, `hit`, or nothing before a plain word.
+    /// `body`, `world`, `hit`, `ledger`, `account`, or nothing before a plain word.
     receiver: &'static str,
     name: String,
     arity: usize,
@@ -105,6 +105,8 @@ fn entry(info: &FuncInfo) -> Option<Entry> {
         Some((_, "Body")) => "body",
         Some((_, "World")) => "world",
         Some((_, "Hit")) => "hit",
+        Some((_, "Ledger")) => "ledger",
+        Some((_, "Account")) => "account",
         _ => "",
     };
     let shown = parameters.iter().map(|(name, kind)| if *kind == "Closure" { "|world| …" } else { *name });

@@ -5,10 +5,11 @@
 use rhai::{Dynamic, Engine, Module, exported_module};
 
 use crate::error::Complaint;
-use crate::handles::{Body, Hit, World};
+use crate::handles::{Account, Body, Hit, Ledger, World};
 
 mod bodies;
 mod expect;
+mod ledger;
 mod manual;
 mod math;
 mod motion;
@@ -46,7 +47,7 @@ pub(crate) const CONSTANTS: [Constant; 3] = [
 ];
 
 /// The groups of words in the order of the manual.
-fn groups() -> [(&'static str, Module); 7] {
+fn groups() -> [(&'static str, Module); 8] {
     let mut mathematics = exported_module!(math::module);
     for constant in &CONSTANTS {
         mathematics.set_var(constant.name, constant.value);
@@ -56,6 +57,7 @@ fn groups() -> [(&'static str, Module); 7] {
         ("bodies", exported_module!(bodies::module)),
         ("expectations", exported_module!(expect::module)),
         ("world", exported_module!(world::module)),
+        ("ledger", exported_module!(ledger::module)),
         ("motion", exported_module!(motion::module)),
         ("random", exported_module!(random::module)),
         ("mathematics", mathematics),
@@ -78,6 +80,8 @@ fn register_types(engine: &mut Engine) {
     engine.register_type_with_name::<Body>("Body");
     engine.register_type_with_name::<World>("World");
     engine.register_type_with_name::<Hit>("Hit");
+    engine.register_type_with_name::<Ledger>("Ledger");
+    engine.register_type_with_name::<Account>("Account");
     // What `catch (error)` gets of a word's complaint.
     engine.register_type_with_name::<Complaint>("Error");
 }

@@ -12,7 +12,7 @@ use crate::session::{self, RhaiResultOf, Session};
 use crate::suggest::did_you_mean;
 
 /// What `world.` can be followed by; a body's name in its place is looked up as `world[name]`.
-const PROPERTIES: [&str; 9] = [
+const PROPERTIES: [&str; 10] = [
     "time",
     "time_step",
     "iteration",
@@ -22,6 +22,7 @@ const PROPERTIES: [&str; 9] = [
     "momentum_z",
     "angular_momentum",
     "deepest",
+    "ledger",
 ];
 
 #[export_module]

@@ -5,6 +5,7 @@
 mod callbacks;
 mod expectations;
 mod files;
+mod ledger;
 mod manual;
 mod mathematics;
 mod params;

@@ -9,7 +9,7 @@ const CONTRACT: &str = "title time_step steps mu_l mu_a epsilon plane exchange d
     friction gravity drag seed random random_int param deg mobile fixed rect mesh model height scale at angle velocity \
     spin patrol swing mass inertia tag on_step on_collision stop_when expect always time iteration collisions \
     kinetic_energy momentum_x momentum_z angular_momentum deepest [] body bodies tagged x z vx vz name speed kind push \
-    twist a b depth sin cos tan sqrt abs min max div PI";
+    twist a b depth ledger initial relocated relocations restitution relocation commands fixed_bodies sin cos tan sqrt abs min max div PI";
 
 #[test]
 fn every_word_of_the_contract_is_there_and_every_word_is_documented() {
@@ -50,7 +50,8 @@ fn definitions_for_editors_hold_every_group() {
     let mut names: Vec<String> =
         files.iter().map(|file| file.file_name().unwrap().to_string_lossy().into_owned()).collect();
     names.sort();
-    let groups = ["bodies", "callbacks", "expectations", "mathematics", "motion", "random", "settings", "world"];
+    let groups =
+        ["bodies", "callbacks", "expectations", "ledger", "mathematics", "motion", "random", "settings", "world"];
     assert_eq!(names, groups.map(|group| format!("{group}.d.rhai")));
     let all: String = files.iter().map(|file| fs::read_to_string(file).unwrap()).collect();
     for line in [

@@ -1,0 +1,80 @@
+//! Files that are written whole or not at all.
+
+use std::fs::Permissions;
+use std::io::{self, Read};
+use std::path::Path;
+
+use crate::Error;
+
+/// What a call writes to a file, and how such a file is named.
+#[derive(Clone, Copy, Debug)]
+pub struct Kind {
+    /// What it is called: `scene`.
+    pub what: &'static str,
+    /// The only extension it may have, so that nothing is written over a script.
+    pub extension: &'static str,
+    /// The flag that names the file.
+    pub flag: &'static str,
+}
+
+impl Kind {
+    /// Refuses a name that is none for such a file, what is there already and is no file, and a folder that is not there.
+    ///
+    /// # Errors
+    /// Those.
+    pub fn check(&self, path: &Path) -> Result<(), Error> {
+        let Kind { what, extension, flag } = self;
+        let refuse = |why: String| {
+            let message = format!("{} {why}", path.display());
+            let hint = format!("a {what}'s file name ends in .{extension}: {flag} {what}.{extension}");
+            Err(Error::Call { message, hint })
+        };
+        if path.extension().is_none_or(|found| found != *extension) {
+            return refuse(format!("is no name for a {what}"));
+        }
+        if path.exists() && !path.is_file() {
+            return refuse("is there already and is no file".to_owned());
+        }
+        if !folder_of(path).is_dir() {
+            return refuse("is in a folder that is not there".to_owned());
+        }
+        Ok(())
+    }
+}
+
+/// Writes beside the file first and renames then: whoever reads it sees the old one or the new one, never half of it. A link
+/// stays a link to what is replaced.
+///
+/// # Errors
+/// A file or folder that cannot be written.
+pub fn replace(path: &Path, mut content: impl Read) -> Result<(), Error> {
+    let mut write = || {
+        let path = &path.canonicalize().unwrap_or_else(|_| path.to_owned());
+        let mut builder = tempfile::Builder::new();
+        let permissions = usual_permissions();
+        if let Some(permissions) = permissions {
+            builder.permissions(permissions);
+        }
+        let mut beside = builder.prefix(".choque-").suffix(".tmp").tempfile_in(folder_of(path))?;
+        io::copy(&mut content, &mut beside)?;
+        beside.persist(path).map_err(|error| error.error)?;
+        Ok(())
+    };
+    write().map_err(|source| Error::File { verb: "write", path: path.to_owned(), source })
+}
+
+fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."))
+}
+
+/// Those of any new file: temporary files are otherwise closed to everyone else.
+#[cfg(unix)]
+fn usual_permissions() -> Option<Permissions> {
+    use std::os::unix::fs::PermissionsExt;
+    Some(Permissions::from_mode(0o666)) // less what the umask takes
+}
+
+#[cfg(not(unix))]
+fn usual_permissions() -> Option<Permissions> {
+    None
+}
