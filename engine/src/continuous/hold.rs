@@ -55,7 +55,7 @@ const SINKING: f64 = 1e-13;
 const SAME: f64 = 1e-15;
 
 /// Slip that friction would end within this share of the span has ended.
-const ENDED: f64 = 1e-6;
+const ENDED: f64 = 1e-5;
 
 /// What came before contacts are held anew.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -90,6 +90,11 @@ struct Support {
 }
 
 impl Support {
+    /// Whether nothing that could be told is between it and its face.
+    fn is_at_face(&self) -> bool {
+        self.gap <= 4.0 * self.tolerance
+    }
+
     /// Whether it is off its face and on its way there: it will strike, and needs no force before.
     fn comes(&self) -> bool {
         self.gap > HOP * self.size && self.moving.u.n < 0.0
@@ -99,14 +104,13 @@ impl Support {
     fn lacks(&self, state: &Continuous, bodies: &Bodies, span: f64) -> f64 {
         let at = |share: f64| self.gap_after(state, bodies, share * span);
         let (early, before, gap) = (at(EARLY), at(0.75), at(1.0));
-        let is_at_face = self.gap <= 4.0 * self.tolerance;
-        let closes = is_at_face && before > gap + 8.0 * self.tolerance && self.force.n > 0.0;
+        let closes = self.is_at_face() && before > gap + 8.0 * self.tolerance && self.force.n > 0.0;
         let least = if closes { MARGIN * self.size } else { 0.0 };
         let lack = |gap: f64, least: f64, time: f64| {
             let missing = if gap < 0.5 * least - self.tolerance { least.max(2.0 * self.tolerance) - gap } else { 0.0 };
             2.0 * missing / (time * time)
         };
-        let sinks = if is_at_face { self.moving.pressing_by(bodies, &state.pulls) } else { 0.0 };
+        let sinks = if self.is_at_face() { self.moving.pressing_by(bodies, &state.pulls) } else { 0.0 };
         lack(gap, least, span).max(lack(early, 0.0, EARLY * span)).max(if sinks > SINKING * self.force.n {
             sinks
         } else {
@@ -254,10 +258,12 @@ fn supports(state: &mut Continuous, world: &mut World, cluster: &[Key], after: A
     supports
 }
 
-/// Takes out what approach is left at the points, without restitution or friction.
+/// Takes out what approach is left at the points that are at their face, without restitution or friction; one that is off it
+/// by a hair is slowed down on its way.
 fn stop(world: &mut World, supports: &mut [Support]) {
     let surface = Surface { restitution: 0.0, friction: 0.0 };
-    let points: Vec<together::Point> = supports.iter().map(|s| together::Point { surface, ..s.moving.point }).collect();
+    let there = supports.iter().filter(|s| s.is_at_face());
+    let points: Vec<together::Point> = there.map(|s| together::Point { surface, ..s.moving.point }).collect();
     world.act_together(&points, 0);
     for support in supports {
         support.moving = Moving::of(&world.bodies, support.moving.point);
@@ -294,6 +300,8 @@ fn plan(state: &mut Continuous, bodies: &mut Bodies, supports: &mut [Support], m
         }
         span *= 0.5;
     }
+    if std::env::var_os("DBG").is_some() { for s in supports.iter() { eprintln!("   span {span:e} left {left:e} gap {:e} u {:?} a {:?} f {:?} sticks {} end {:?} face {:?} v {:?} ask {:e} drift {:?} ij {} {}", s.gap, s.moving.u, s.acceleration, s.force, s.sticks, s.slip_end(), s.face, s.vertex, s.ask, s.moving.drift, s.acts.i, s.acts.j); } }
+    if std::env::var_os("DBG").is_some() { for s in supports.iter() { eprintln!("   span {span:e} left {left:e} gap {:e} u {:?} a {:?} f {:?} sticks {} end {:?} face {:?} v {:?} ask {:e} drift {:?} ij {} {}", s.gap, s.moving.u, s.acceleration, s.force, s.sticks, s.slip_end(), s.face, s.vertex, s.ask, s.moving.drift, s.acts.i, s.acts.j); } }
     span
 }
 

@@ -165,7 +165,13 @@ pub(crate) fn solve(bodies: &mut Bodies, points: &[Point], demands: &[Demand]) -
         let u = relative_velocity(bodies, row.point.i, row.point.j, &row.point.arms);
         (u - row.point.n * row.wanted.n).norm().max(row.wanted.t.abs())
     };
-    let scale = rows.iter().map(lacks).fold(0.0, f64::max);
+    let speed = |row: &Row| {
+        let of = |body: usize, r: Vec2| bodies.motion[body].v.norm() + bodies.motion[body].omega.abs() * r.norm();
+        of(row.point.i, row.point.arms.r_i) + of(row.point.j, row.point.arms.r_j)
+    };
+    // Speeds are known to their own rounding only: to improve on that is to follow noise.
+    let lacking = rows.iter().map(lacks).fold(0.0, f64::max);
+    let settled = rows.iter().map(speed).fold(SETTLED * lacking, |most, speed| most.max(f64::EPSILON * speed));
     let start = involved(bodies, points);
     let mut now = Guess { impulses: vec![Impulse::default(); rows.len()], motions: start.clone() };
     let mut last = now.clone();
@@ -179,7 +185,7 @@ pub(crate) fn solve(bodies: &mut Bodies, points: &[Point], demands: &[Demand]) -
         momentum = if astray { 1.0 } else { next };
         last = if astray { better.clone() } else { now };
         now = better;
-        if change <= SETTLED * scale {
+        if change <= settled {
             break;
         }
     }
