@@ -300,8 +300,6 @@ fn plan(state: &mut Continuous, bodies: &mut Bodies, supports: &mut [Support], m
         }
         span *= 0.5;
     }
-    if std::env::var_os("DBG").is_some() { for s in supports.iter() { eprintln!("   span {span:e} left {left:e} gap {:e} u {:?} a {:?} f {:?} sticks {} end {:?} face {:?} v {:?} ask {:e} drift {:?} ij {} {}", s.gap, s.moving.u, s.acceleration, s.force, s.sticks, s.slip_end(), s.face, s.vertex, s.ask, s.moving.drift, s.acts.i, s.acts.j); } }
-    if std::env::var_os("DBG").is_some() { for s in supports.iter() { eprintln!("   span {span:e} left {left:e} gap {:e} u {:?} a {:?} f {:?} sticks {} end {:?} face {:?} v {:?} ask {:e} drift {:?} ij {} {}", s.gap, s.moving.u, s.acceleration, s.force, s.sticks, s.slip_end(), s.face, s.vertex, s.ask, s.moving.drift, s.acts.i, s.acts.j); } }
     span
 }
 
