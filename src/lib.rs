@@ -3,7 +3,7 @@
 //! | what | file |
 //! |---|---|
 //! | calls and flags | [`cli`], [`arguments`] |
-//! | a scenario played to its end, and what is told of it | [`play`], [`report`], [`readings`], [`notable`] |
+//! | a scenario played to its end, and what is told of it | [`play`], [`outcome`], [`readings`], [`notable`] |
 //! | what each call does | [`run`], [`check`], [`explain`], [`export`], [`words`], [`init`] |
 //! | how it is printed | [`output`], [`terminal`], [`progress`], [`clock`] |
 //! | one test per scenario, pinned by a snapshot | [`harness`] |
@@ -20,11 +20,11 @@ pub mod export;
 pub mod harness;
 pub mod init;
 pub mod notable;
+pub mod outcome;
 pub mod output;
 pub mod play;
 pub mod progress;
 pub mod readings;
-pub mod report;
 pub mod run;
 pub mod terminal;
 pub mod words;
