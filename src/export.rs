@@ -1,11 +1,10 @@
 //! `choque export`: the scene as plain data.
 
-use std::fs::Permissions;
-use std::io::{self, Write};
 use std::path::Path;
 
 use choque_scripting::{Options, Scenario};
 
+use crate::files::replace;
 use crate::output::ron;
 use crate::play::callbacks_in_words;
 use crate::terminal::{WARNING, styled, tell};
@@ -29,7 +28,7 @@ pub fn export(file: &Path, output: Option<&Path>, options: &Options) -> Result<V
         None => terminal::answer(&text)?,
         Some(path) => {
             let unwritten = |source| Error::File { verb: "write", path: path.to_owned(), source };
-            replace(path, &text).map_err(unwritten)?;
+            replace(path, text.as_bytes()).map_err(unwritten)?;
         }
     }
     if let Some(callbacks) = callbacks_in_words(&scenario) {
@@ -50,34 +49,4 @@ fn check_target(path: &Path) -> Result<(), Error> {
         _ => return refuse("is no name for a scene"),
     }
     if path.exists() && !path.is_file() { refuse("is there already and is no file") } else { Ok(()) }
-}
-
-/// Writes beside the file first and renames then; a link stays a link to what is replaced.
-fn replace(path: &Path, text: &str) -> io::Result<()> {
-    let path = &path.canonicalize().unwrap_or_else(|_| path.to_owned());
-    let folder = match path.parent() {
-        Some(parent) if parent != Path::new("") => parent,
-        _ => Path::new("."),
-    };
-    let mut builder = tempfile::Builder::new();
-    let permissions = usual_permissions();
-    if let Some(permissions) = permissions {
-        builder.permissions(permissions);
-    }
-    let mut beside = builder.prefix(".choque-").suffix(".tmp").tempfile_in(folder)?;
-    beside.write_all(text.as_bytes())?;
-    beside.persist(path).map_err(|error| error.error)?;
-    Ok(())
-}
-
-/// Those of any new file: temporary files are otherwise closed to everyone else.
-#[cfg(unix)]
-fn usual_permissions() -> Option<Permissions> {
-    use std::os::unix::fs::PermissionsExt;
-    Some(Permissions::from_mode(0o666)) // less what the umask takes
-}
-
-#[cfg(not(unix))]
-fn usual_permissions() -> Option<Permissions> {
-    None
 }

@@ -4,8 +4,8 @@
 //! |---|---|
 //! | calls and flags | [`cli`], [`arguments`] |
 //! | a scenario played to its end, and what is told of it | [`play`], [`outcome`], [`readings`], [`notable`] |
-//! | what each call does | [`run`], [`check`], [`explain`], [`export`], [`words`], [`init`] |
-//! | how it is printed | [`output`], [`terminal`], [`progress`], [`clock`] |
+//! | what each call does | [`run`], [`check`], [`explain`], [`export`], [`words`], [`init`], [`report`] |
+//! | how it is printed | [`output`], [`plot`], [`files`], [`terminal`], [`progress`], [`clock`] |
 //! | one test per scenario, pinned by a snapshot | [`harness`] |
 //!
 //! The physics is `choque-engine`'s, the language `choque-scripting`'s; here are files, clocks and terminals only.
@@ -17,14 +17,17 @@ pub mod clock;
 pub mod error;
 pub mod explain;
 pub mod export;
+pub mod files;
 pub mod harness;
 pub mod init;
 pub mod notable;
 pub mod outcome;
 pub mod output;
 pub mod play;
+pub mod plot;
 pub mod progress;
 pub mod readings;
+pub mod report;
 pub mod run;
 pub mod terminal;
 pub mod words;

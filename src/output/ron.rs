@@ -26,7 +26,11 @@ pub fn scene(scene: &Scene) -> Result<String, Error> {
     pretty(scene, "the scene")
 }
 
-fn pretty<T: Serialize>(value: &T, what: &str) -> Result<String, Error> {
+/// Any data as RON and a newline.
+///
+/// # Errors
+/// What the serialiser refuses.
+pub fn pretty<T: Serialize>(value: &T, what: &str) -> Result<String, Error> {
     let text = to_string_pretty(value, layout()).map_err(|error| Error::unwritable(what, &error))?;
     Ok(text + "\n")
 }

@@ -1,0 +1,102 @@
+//! What errors are measured against, and how it has earned that.
+
+use serde::{Deserialize, Serialize};
+
+use super::convergence::{self, Verdict};
+use super::course::{Apart, Course};
+use super::method::Method;
+use super::poses::{Shapes, Stand};
+
+/// How a reference has earned its name.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Earned {
+    /// The caller gave it.
+    Given,
+    /// Stopping at impacts gives the same for every time step, to rounding.
+    Exact {
+        /// Greatest difference to the smallest time step, in half diagonals.
+        to_itself: f64,
+        /// What rounding, grown as fast as differences grow in this scene, could make of it.
+        allowed: f64,
+    },
+    /// The last three halvings of the time step shrank the difference by 2^p.
+    Converged {
+        /// p.
+        order: f64,
+        /// How far it still is from the limit, if it goes on like that.
+        remainder: f64,
+    },
+}
+
+/// What errors are measured against.
+#[derive(Clone, Debug)]
+pub struct Reference {
+    /// How it has earned that.
+    pub earned: Earned,
+    /// Which method made it; `None` for one that was given.
+    pub method: Option<Method>,
+    /// Its smallest time step, as a rung of the ladder.
+    pub finest: usize,
+    /// Where everything stands at the checkpoints.
+    pub stands: Vec<Stand>,
+}
+
+impl Reference {
+    /// How far it may itself be from the truth.
+    #[must_use]
+    pub fn doubt(&self) -> f64 {
+        match self.earned {
+            Earned::Given => 0.0,
+            Earned::Exact { to_itself, .. } => to_itself,
+            Earned::Converged { remainder, .. } => remainder,
+        }
+    }
+
+    /// Whether errors with that time step mean something: against a converged reference only those whose time step is eight
+    /// times its own or more, for the rest share its error.
+    #[must_use]
+    pub fn can_judge(&self, rung: usize) -> bool {
+        !matches!(self.earned, Earned::Converged { .. }) || rung + 3 <= self.finest
+    }
+}
+
+/// Rounding of one iteration and impact, in half diagonals, before the scene lets it grow.
+const ROUNDING: f64 = 1e-13;
+/// However much a scene lets differences grow: a reference worse than this settles nothing.
+const LEAST_CERTAIN: f64 = 1e-7;
+
+/// Whether a method gives the same for all its time steps, to rounding; `growth` is how many times a difference at the start
+/// has grown by the end.
+#[must_use]
+pub fn exact(shapes: &Shapes, courses: &[&Course], method: Method, growth: f64) -> Option<Reference> {
+    let (finest, others) = courses.split_last()?;
+    if others.len() < 3 {
+        return None;
+    }
+    let apart = |course: &&Course| Apart::between(shapes, &course.stands, &finest.stands).map(|apart| apart.max);
+    let to_itself = others.iter().map(apart).try_fold(0.0, |most: f64, apart| Some(most.max(apart?)))?;
+    let allowed = (ROUNDING * growth.max(1.0)).min(LEAST_CERTAIN);
+    let same_count = others.iter().all(|course| course.collisions == finest.collisions);
+    (to_itself <= allowed && same_count).then(|| Reference {
+        earned: Earned::Exact { to_itself, allowed },
+        method: Some(method),
+        finest: courses.len() - 1,
+        stands: finest.stands.clone(),
+    })
+}
+
+/// Whether the results of a method, longest time step first, converge.
+#[must_use]
+pub fn converged(shapes: &Shapes, courses: &[&Course], method: Method) -> Option<Reference> {
+    let apart = |pair: &[&Course]| Apart::between(shapes, &pair[0].stands, &pair[1].stands).map(|apart| apart.max);
+    let differences: Vec<f64> = courses.windows(2).map(apart).collect::<Option<_>>()?;
+    match convergence::judge(&differences) {
+        Verdict::Wanders => None,
+        Verdict::Converges { order, remainder } => Some(Reference {
+            earned: Earned::Converged { order, remainder },
+            method: Some(method),
+            finest: courses.len() - 1,
+            stands: courses.last()?.stands.clone(),
+        }),
+    }
+}
