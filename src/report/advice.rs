@@ -3,7 +3,7 @@
 use choque_engine::scene::MotionRule;
 
 use super::convergence::Reach;
-use super::format::{time_step_in_words, times};
+use super::format::{significant, time_step_in_words, times};
 use super::method::Method;
 use super::study::{Row, Study};
 
@@ -24,7 +24,7 @@ fn time_step(study: &Study) -> String {
     let own = study.own.name();
     let rows: Vec<&Row> = study.rows_of(study.own).filter(|row| row.error.is_some()).collect();
     if rows.is_empty() {
-        return format!("nothing is known of the error of this scene ({own})");
+        return without_reference(study);
     }
     match rows.iter().rposition(|row| row.error.is_none_or(|error| error > GOOD_ENOUGH)) {
         None => format!(
@@ -39,6 +39,19 @@ fn time_step(study: &Study) -> String {
             let finest = time_step_in_words(rows[last].time_step);
             format!("no time_step down to {finest} keeps errors below 1e-3 ({own})")
         }
+    }
+}
+
+/// What can be said where no error is known: how much the answer itself depends on the time step.
+fn without_reference(study: &Study) -> String {
+    let moved = study.rows_of(study.own).filter_map(|row| row.moved_by_halving);
+    match moved.reduce(f64::min) {
+        Some(least) => format!(
+            "this scene has no answer to converge to ({}): halving the time step always moves a body by {} half diagonals or more",
+            study.own.name(),
+            significant(least)
+        ),
+        None => format!("nothing is known of the error of this scene ({})", study.own.name()),
     }
 }
 

@@ -3,11 +3,11 @@
 use std::path::Path;
 use std::time::Duration;
 
-use choque_engine::scene::{Detection, MotionRule};
+use choque_engine::scene::{Detection, ExchangeRule, MotionRule};
 use choque_scripting::Scenario;
 
 use super::advice;
-use super::convergence::{reach, slope};
+use super::convergence::{LOST, reach, slope};
 use super::copies;
 use super::course::{self, Apart, Course, Plan};
 use super::errors::{self, Errors};
@@ -43,7 +43,7 @@ pub struct Depth {
 
 impl Depth {
     /// All of it: 1/30 … 1/15360, the median of 11.
-    pub const FULL: Depth = Depth { rungs: 10, runs: 11, patience: Duration::from_secs(6), longest: 20.0, copies: 32 };
+    pub const FULL: Depth = Depth { rungs: 10, runs: 11, patience: Duration::from_secs(2), longest: 20.0, copies: 32 };
     /// A first impression: 1/30 … 1/960, the median of 3.
     pub const QUICK: Depth = Depth { rungs: 6, runs: 3, patience: Duration::from_millis(100), longest: 2.0, copies: 8 };
 }
@@ -60,32 +60,41 @@ pub fn study(recipe: &Recipe, given: Option<&Path>, depth: Depth, threads: usize
     if shapes.is_empty() || ladder.time <= 0.0 {
         return Err(notes::nothing_to_compare(recipe.file()));
     }
+    let is_impulse = scenario.scene().settings.exchange == ExchangeRule::Impulse;
     let given = given.map(|file| closed_form::read(file, scenario.scene(), &ladder)).transpose()?;
     let growth = growth(recipe, &ladder, &shapes);
-    let mut checkpoints = ladder.checkpoints(growth.map_or(ladder.coarsest, |growth| growth.measured));
+    let last = growth.map_or(ladder.coarsest, |growth| growth.measured);
+    let mut checkpoints = ladder.checkpoints([ladder.coarsest, last]);
     if let Some(given) = &given {
         (shapes, checkpoints) = (given.shapes.clone(), given.checkpoints.clone());
     }
     let plan = Plan { ladder: &ladder, shapes: &shapes, checkpoints: &checkpoints };
-    let all = survey(recipe, &plan, threads, depth.longest)?;
-    let references: Vec<(Detection, Option<Reference>)> = match given {
+    let mut all = survey(recipe, &plan, threads, depth.longest)?;
+    let mut references = match given {
         Some(given) => {
-            let given = Reference { earned: Earned::Given, method: None, finest: 0, stands: given.stands };
-            both(&all).map(|detection| (detection, Some(given.clone()))).collect()
+            let given = Reference { earned: Earned::Given, method: None, finest: 0, from: 0, stands: given.stands };
+            both(&all).into_iter().map(|detection| (detection, Some(given.clone()))).collect()
         }
-        None => {
-            both(&all).map(|detection| (detection, find(recipe, &plan, &all, growth, detection, threads))).collect()
-        }
+        None => find_all(recipe, &plan, &all, growth, is_impulse, threads),
     };
+    // What differences have grown beyond measure in is left out, unless it turned out to be exact all the same.
+    let is_chaotic =
+        growth.is_some_and(|growth| growth.horizon.is_some()) && references.iter().any(|(_, r)| r.is_none());
+    let kept: Vec<u64> = checkpoints.iter().copied().filter(|moment| !is_chaotic || *moment <= last).collect();
+    let plan = Plan { checkpoints: &kept, ..plan };
+    if is_chaotic {
+        all.iter_mut().flat_map(|runs| &mut runs.courses).for_each(|course| course.stands.truncate(kept.len()));
+        references = find_all(recipe, &plan, &all, growth, is_impulse, threads);
+    }
     let of = |detection| references.iter().find(|(d, _)| *d == detection).and_then(|(_, reference)| reference.clone());
     let errors = errors::measure(recipe, &plan, &all, of, threads);
     let costs = time(recipe, &ladder, &all, depth)?;
-    let rows = rows(&ladder, &all, &errors, &costs);
+    let rows = rows(&plan, &all, &errors, &costs);
     let methods = all.iter().map(|runs| summary(runs, &ladder, &rows, of(runs.method.detection).as_ref())).collect();
-    let is_chaotic = growth.is_some_and(|growth| growth.horizon.is_some());
     let comparisons = if is_chaotic {
         let tried: Vec<Method> = all.iter().map(|runs| runs.method).collect();
-        let best = tried.last().copied().unwrap_or(own);
+        let detection = if is_impulse { Detection::Complete } else { own.detection };
+        let best = Method { motion: MotionRule::Continuous, detection };
         copies::compare(recipe, &ladder, &tried, best, depth.copies, threads)?
     } else {
         Vec::new()
@@ -100,6 +109,7 @@ pub fn study(recipe: &Recipe, given: Option<&Path>, depth: Depth, threads: usize
         bodies: shapes.len(),
         own,
         growth,
+        measured_until: kept.last().map_or(0.0, |last| *last as f64 * ladder.time_step(0)),
         models_apart: models_apart(&shapes, &references),
         references: references.iter().map(|(detection, reference)| referred(*detection, reference.as_ref())).collect(),
         rows,
@@ -126,10 +136,31 @@ fn growth(recipe: &Recipe, ladder: &Ladder, shapes: &Shapes) -> Option<Growth> {
 }
 
 /// The ways of finding collisions that were tried.
-fn both(all: &[Runs]) -> impl Iterator<Item = Detection> {
-    [Detection::Vertices, Detection::Complete]
-        .into_iter()
-        .filter(|detection| all.iter().any(|runs| runs.method.detection == *detection))
+fn both(all: &[Runs]) -> Vec<Detection> {
+    let is_tried = |detection: &Detection| all.iter().any(|runs| runs.method.detection == *detection);
+    [Detection::Vertices, Detection::Complete].into_iter().filter(is_tried).collect()
+}
+
+type References = Vec<(Detection, Option<Reference>)>;
+
+/// A reference for each way of finding collisions. Impulses have one law, which only complete detection gives both points of a flat
+/// hit: its limit is the reference of both. The document's rules treat one vertex with the one and the middle with the
+/// other: two models, each with a limit of its own.
+fn find_all(
+    recipe: &Recipe,
+    plan: &Plan<'_>,
+    all: &[Runs],
+    growth: Option<Growth>,
+    is_impulse: bool,
+    threads: usize,
+) -> References {
+    let tried = both(all);
+    let of = |detection| find(recipe, plan, all, growth, detection, threads);
+    if is_impulse && tried.contains(&Detection::Complete) {
+        let law = of(Detection::Complete);
+        return tried.into_iter().map(|detection| (detection, law.clone())).collect();
+    }
+    tried.into_iter().map(|detection| (detection, of(detection))).collect()
 }
 
 /// Rungs beyond the ladder that a sequence may take to show that it converges.
@@ -148,7 +179,7 @@ fn find(
     if let Some(runs) = of(MotionRule::Continuous) {
         let courses: Vec<&Course> = runs.courses.iter().collect();
         let grown = growth.map_or(1.0, |growth| growth.grown);
-        if let Some(exact) = reference::exact(plan.shapes, &courses, runs.method, grown) {
+        if let Some(exact) = reference::exact(plan, &courses, runs.method, grown) {
             return Some(exact);
         }
     }
@@ -163,7 +194,7 @@ fn find(
             Vec::new()
         };
         let courses: Vec<&Course> = runs.courses.iter().chain(finer.iter().flatten()).collect();
-        reference::converged(plan.shapes, &courses, runs.method)
+        reference::converged(plan, &courses, runs.method)
     })
 }
 
@@ -177,7 +208,7 @@ fn referred(detection: Detection, reference: Option<&Reference>) -> Referred {
 
 fn models_apart(shapes: &Shapes, references: &[(Detection, Option<Reference>)]) -> Option<f64> {
     match references {
-        [(_, Some(a)), (_, Some(b))] if a.method.is_some() => {
+        [(_, Some(a)), (_, Some(b))] if a.method != b.method => {
             Apart::between(shapes, &a.stands, &b.stands).map(|apart| apart.max)
         }
         _ => None,
@@ -203,17 +234,21 @@ fn time(recipe: &Recipe, ladder: &Ladder, all: &[Runs], depth: Depth) -> Result<
     Ok(costs)
 }
 
-fn rows(ladder: &Ladder, all: &[Runs], errors: &[Errors], costs: &[Vec<Cost>]) -> Vec<Row> {
+fn rows(plan: &Plan<'_>, all: &[Runs], errors: &[Errors], costs: &[Vec<Cost>]) -> Vec<Row> {
     let row = |i: usize, rung: usize| {
         let (course, error, cost) = (&all[i].courses[rung], errors[i][rung], costs[i][rung]);
         Row {
             method: all[i].method,
-            time_step: ladder.time_step(rung),
-            steps: ladder.steps(rung),
+            time_step: plan.ladder.time_step(rung),
+            steps: plan.ladder.steps(rung),
             error: error.map(|error| error.typical),
             error_at_end: error.map(|error| error.end),
             error_rms: error.map(|error| error.rms),
             error_worst: error.map(|error| error.worst),
+            moved_by_halving: all[i]
+                .courses
+                .get(rung + 1)
+                .and_then(|finer| Apart::between(plan.shapes, &course.stands, &finer.stands).map(|apart| apart.max)),
             starts: error.map_or(0, |error| error.starts),
             cpu: cost.seconds,
             runs: cost.runs,
@@ -242,7 +277,9 @@ fn summary(runs: &Runs, ladder: &Ladder, rows: &[Row], reference: Option<&Refere
     Summary {
         method: runs.method,
         error_at_sixtieth: rows.get(ladder.usual()).and_then(|row| row.error),
-        order: slope(known().filter(|(error, _)| *error > floor).map(|(error, row)| (row.time_step, error))),
+        order: slope(
+            known().filter(|(error, _)| *error > floor && *error < LOST).map(|(error, row)| (row.time_step, error)),
+        ),
         reaches_1e_3: reach(&curve, 1e-3),
         reaches_1e_6: reach(&curve, 1e-6),
         ended: runs.ended.clone(),

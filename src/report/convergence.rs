@@ -99,12 +99,18 @@ pub fn reach(curve: &[(f64, f64)], within: f64) -> Reach {
     }
 }
 
+/// An error of a half diagonal or more is a body that is somewhere else: it does not say how errors fall.
+pub const LOST: f64 = 1.0;
+/// A line is followed only where cost falls with error as some order from 0.5 to 4 makes it fall.
+const STEEPEST: f64 = -2.0;
+const FLATTEST: f64 = -0.25;
+
 /// Beyond the smallest time step, along the line through all that was measured.
 fn extrapolated(curve: &[(f64, f64)], last: usize, within: f64) -> Reach {
-    // Cost falls as error grows; a curve that is steeper than 4 has stopped coming closer.
-    match slope(curve.iter().copied()) {
-        Some(slope) if (-4.0..-0.2).contains(&slope) => {
-            let (error, cost) = curve[last];
+    let (error, cost) = curve[last];
+    let converging = curve.iter().copied().filter(|(error, _)| *error < LOST);
+    match slope(converging) {
+        Some(slope) if error < 0.5 * LOST && STEEPEST < slope && slope < FLATTEST => {
             Reach::Extrapolated(cost * libm::pow(error / within, -slope))
         }
         _ => Reach::NotReached,

@@ -71,10 +71,12 @@ pub fn compare(
     let mut settings = vec![Setting { method: reference, rung: (usual + 2).min(ladder.rungs - 1) }];
     settings.extend(methods.iter().map(|method| Setting { method: *method, rung: usual }));
     let quantities = Quantities::of(recipe.as_written()?.scene());
+    // Seeds of their own for every setting: two samples that share their starts are not independent.
+    let seeds = (0..).flat_map(|setting: u64| (0..copies as u64).map(move |copy| 1000 * setting + copy));
     let jobs: Vec<(Setting, u64)> =
-        settings.iter().flat_map(|setting| (0..copies as u64).map(|copy| (*setting, copy))).collect();
-    let read = share(&jobs, threads, "copies", |(setting, copy)| {
-        let start = Start::Jittered { by: BESIDE, seed: *copy };
+        settings.iter().flat_map(|setting| std::iter::repeat_n(*setting, copies)).zip(seeds).collect();
+    let read = share(&jobs, threads, "copies", |(setting, seed)| {
+        let start = Start::Jittered { by: BESIDE, seed: *seed };
         let variant = Variant::of(ladder, setting.method, setting.rung, start);
         let every = ladder.steps(setting.rung) / ladder.coarsest;
         quantities.read(recipe, &variant, every).ok()

@@ -5,7 +5,7 @@
 //! times with the bodies starting a fraction of an iteration earlier, each time against a reference that starts there too, and
 //! what counts is the middle of the errors.
 
-use choque_engine::scene::{Detection, MotionRule};
+use choque_engine::scene::Detection;
 
 use super::course::{self, Apart, Plan};
 use super::jobs::share;
@@ -21,8 +21,6 @@ const STARTS: usize = 5;
 const GOLDEN: f64 = 0.618_033_988_749_894_8;
 /// A run that costs more than this is made from the scene's own start only \[s\].
 const COSTLY: f64 = 1.0;
-/// The rung whose time step the exact reference of a moved start takes: it does not matter which.
-const EXACT_RUNG: usize = 3;
 
 /// How far off a method is with one time step.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -93,20 +91,29 @@ fn from_moved_starts(
     let is_exact = |i: &usize| matches!(&references[*i], Some(Reference { earned: Earned::Exact { .. }, .. }));
     let mut jobs = Vec::new();
     for of in (0..all.len()).filter(is_exact) {
-        for rung in (0..all[of].courses.len()).rev().filter(|rung| all[of].expected_cost(*rung) <= COSTLY) {
+        let from = references[of].as_ref().map_or(0, |reference| reference.from);
+        let affordable = |rung: &usize| all[of].expected_cost((*rung).max(from)) <= COSTLY;
+        for rung in (0..all[of].courses.len()).rev().filter(affordable) {
             jobs.extend((1..STARTS).map(|start| Job { of, rung, start }));
         }
     }
     let aparts = share(&jobs, threads, "moved starts", |job| {
         let fraction = (GOLDEN * job.start as f64).fract();
-        from_moved_start(recipe, plan, all[job.of].method, job.rung, fraction * plan.ladder.time_step(job.rung))
+        let earlier = Start::Earlier(fraction * plan.ladder.time_step(job.rung));
+        from_moved_start(recipe, plan, all[job.of].method, job.rung, references[job.of].as_ref()?, earlier)
     });
     jobs.iter().zip(aparts).filter_map(|(job, apart)| Some(((job.of, job.rung), apart?))).collect()
 }
 
 /// `None` when bodies would start inside each other there, or the run is not what it was.
-fn from_moved_start(recipe: &Recipe, plan: &Plan<'_>, method: Method, rung: usize, earlier: f64) -> Option<Apart> {
-    let start = Start::Earlier(earlier);
+fn from_moved_start(
+    recipe: &Recipe,
+    plan: &Plan<'_>,
+    method: Method,
+    rung: usize,
+    reference: &Reference,
+    start: Start,
+) -> Option<Apart> {
     let deepest = |start: Start| {
         let variant = Variant::of(plan.ladder, method, rung, start);
         Some(recipe.load(&variant).ok()?.start().ok()?.world().deepest())
@@ -114,9 +121,10 @@ fn from_moved_start(recipe: &Recipe, plan: &Plan<'_>, method: Method, rung: usiz
     if deepest(start)? > deepest(Start::AsWritten)? {
         return None;
     }
-    let exact = Method { motion: MotionRule::Continuous, ..method };
-    let exact_rung = if rung == EXACT_RUNG && method == exact { EXACT_RUNG - 1 } else { EXACT_RUNG };
-    let truth = course::run(recipe, plan, exact, exact_rung.min(plan.ladder.rungs - 1), start).ok()?;
+    // Any time step from that one on gives the same; the one tried would be compared to itself.
+    let exact = reference.method?;
+    let same = rung == reference.from && method == exact;
+    let truth = course::run(recipe, plan, exact, reference.from + usize::from(same), start).ok()?;
     let tried = course::run(recipe, plan, method, rung, start).ok()?;
     Apart::between(plan.shapes, &tried.stands, &truth.stands)
 }

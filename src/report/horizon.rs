@@ -17,19 +17,18 @@ const LOST: f64 = 1e-3;
 /// the scene than about the method.
 const MEASURABLE: f64 = 1e3;
 
-/// How differences grow.
+/// How differences grow. A scene whose differences grow a billionfold is called chaotic.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Growth {
     /// When a difference of 1e-12 half diagonals has become 1e-3 \[s\]; `None` when it never does.
     pub horizon: Option<f64>,
     /// By how much differences grow in a second, on average up to there.
     pub per_second: f64,
-    /// How many times a difference has grown by the end of what is measured.
+    /// How many times a difference has grown by then.
     pub grown: f64,
-    /// The last moment at which errors are measured, in iterations of the longest time step.
+    /// The last moment at which an error still says more about the method than about the scene, in iterations of the longest
+    /// time step.
     pub measured: u64,
-    /// The same \[s\].
-    pub until: f64,
 }
 
 /// Follows a scene and its twin.
@@ -79,7 +78,6 @@ fn judge(apart: &[f64], ladder: &Ladder) -> Growth {
         per_second,
         grown: grown.get(measured).copied().unwrap_or(1.0).max(1.0),
         measured: measured as u64,
-        until: second(measured),
     }
 }
 

@@ -1,5 +1,7 @@
 //! Which time steps are tried, and at which moments their results are compared.
 
+use std::collections::BTreeSet;
+
 use choque_engine::Scene;
 
 use super::format::time_step_in_words;
@@ -59,12 +61,13 @@ impl Ladder {
         (0..self.rungs).min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(0)
     }
 
-    /// Moments to compare at, in iterations of the longest time step, so that every time step meets them; up to and
-    /// with the last one given.
+    /// Moments to compare at, in iterations of the longest time step, so that every time step meets them: some up to each of
+    /// the last ones given.
     #[must_use]
-    pub fn checkpoints(&self, last: u64) -> Vec<u64> {
-        let count = CHECKPOINTS.min(last);
-        (1..=count).map(|i| i * last / count).collect()
+    pub fn checkpoints(&self, lasts: [u64; 2]) -> Vec<u64> {
+        let up_to = |last: u64| (1..=CHECKPOINTS.min(last)).map(move |i| i * last / CHECKPOINTS.min(last));
+        let all: BTreeSet<u64> = lasts.into_iter().flat_map(up_to).collect();
+        all.into_iter().collect()
     }
 }
 
@@ -97,9 +100,10 @@ mod tests {
     #[test]
     fn checkpoints_end_with_the_last_moment() {
         let ladder = ladder(1.0 / 60.0, 600);
-        let checkpoints = ladder.checkpoints(300);
+        let checkpoints = ladder.checkpoints([300, 300]);
         assert_eq!((checkpoints.len(), checkpoints.last()), (16, Some(&300)));
-        assert_eq!(ladder.checkpoints(3), [1, 2, 3]);
-        assert!(ladder.checkpoints(0).is_empty());
+        assert_eq!(ladder.checkpoints([3, 0]), [1, 2, 3]);
+        let both = ladder.checkpoints([300, 30]);
+        assert!(both.contains(&30) && both.iter().filter(|moment| **moment <= 30).count() >= 16);
     }
 }

@@ -31,9 +31,11 @@ pub struct Study {
     pub own: Method,
     /// How differences grow; nothing when no run could be made.
     pub growth: Option<Growth>,
+    /// Up to when errors are measured \[s\].
+    pub measured_until: f64,
     /// What errors are measured against, for each way of finding collisions.
     pub references: Vec<Referred>,
-    /// How far the references of the two ways of finding collisions are apart, in half diagonals.
+    /// How far the references of the two ways of finding collisions are apart, in half diagonals, where they are two.
     pub models_apart: Option<f64>,
     /// A line per method and time step.
     pub rows: Vec<Row>,
@@ -101,6 +103,8 @@ pub struct Row {
     pub error_rms: Option<f64>,
     /// The same as `error`, but the greatest over starts.
     pub error_worst: Option<f64>,
+    /// How far the run with half the time step is from this one; nothing for the shortest.
+    pub moved_by_halving: Option<f64>,
     /// Starts, each a fraction of an iteration from the next.
     pub starts: usize,
     /// CPU time of a run \[s\], median.

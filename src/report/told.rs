@@ -4,6 +4,7 @@ use super::advice::deeds;
 use super::convergence::Reach;
 use super::copies::Comparison;
 use super::format::{error, significant, time_step_in_words};
+use super::horizon::Growth;
 use super::method::Method;
 use super::reference::Earned;
 use super::study::{Referred, Row, Study, Summary};
@@ -46,43 +47,42 @@ pub fn text(study: &Study) -> String {
 /// What errors are measured against and how that was earned, a line each; a scene that cannot be foretold far says so.
 #[must_use]
 pub fn references(study: &Study) -> Vec<String> {
-    let mut lines: Vec<String> = study.references.iter().map(|referred| reference(study, referred)).collect();
+    let mut lines = Vec::new();
+    match study.references.as_slice() {
+        [a, b] if (a.earned, a.method) == (b.earned, b.method) => lines.push(reference(a, "")),
+        several => lines.extend(several.iter().map(|referred| reference(referred, referred.detection.word()))),
+    }
     if let Some(apart) = study.models_apart {
         let kind = if apart <= 1e-9 { "the same answer".to_owned() } else { format!("answers {apart:.1e} apart") };
-        lines.push(format!("vertices and complete converge to {kind}"));
+        lines.push(format!("vertices and complete come to {kind}"));
     }
-    match study.growth {
-        Some(growth) => lines.push(match growth.horizon {
-            None => format!("a difference at the start grows {} × by the end: not chaotic", significant(growth.grown)),
-            Some(horizon) => {
-                format!(
-                    "chaotic: differences grow {} × a second, 1e-12 becomes 1e-3 after {} s; errors up to {} s only",
-                    significant(growth.per_second),
-                    significant(horizon),
-                    significant(growth.until),
-                )
-            }
-        }),
-        None => lines.push("how differences grow is not known: no run could be made".to_owned()),
-    }
+    lines.push(match study.growth {
+        None => "how differences grow is not known: no run could be made".to_owned(),
+        Some(Growth { horizon: None, grown, .. }) => {
+            format!("a difference at the start grows {} × by the end: not chaotic", significant(grown))
+        }
+        Some(Growth { horizon: Some(horizon), .. }) => format!(
+            "sensitive: a difference of 1e-12 at the start is 1e-3 after {} s; errors are told up to {} s",
+            significant(horizon),
+            significant(study.measured_until),
+        ),
+    });
     lines
 }
 
-fn reference(study: &Study, referred: &Referred) -> String {
-    let detection = referred.detection.word();
+fn reference(referred: &Referred, whose: &str) -> String {
+    let whose = if whose.is_empty() { String::new() } else { format!("{whose}: ") };
     let made_by = referred.method.map(Method::name).unwrap_or_default();
     match referred.earned {
-        Some(Earned::Given) => format!("{detection}: the reference given"),
-        Some(Earned::Exact { to_itself, .. }) => {
-            format!("{detection}: {made_by}, exact: every time step gives the same to {to_itself:.1e}")
+        Some(Earned::Given) => "the reference given".to_owned(),
+        Some(Earned::Exact { to_itself, from, .. }) => {
+            let from = time_step_in_words(from);
+            format!("{whose}{made_by}, exact: every time step ≤ {from} gives the same to {to_itself:.1e}")
         }
         Some(Earned::Converged { order, remainder }) => {
-            format!("{detection}: {made_by}, converged with order {order:.2}, {remainder:.1e} from its limit")
+            format!("{whose}{made_by}, converged with order {order:.2}, {remainder:.1e} from its limit")
         }
-        None if study.growth.is_some_and(|growth| growth.measured == 0) => {
-            format!("{detection}: no reference: differences grow too fast for any")
-        }
-        None => format!("{detection}: no reference: neither exact nor converging, so no errors are told"),
+        None => format!("{whose}no reference: no method is exact or converges, so no errors are told"),
     }
 }
 
@@ -93,6 +93,7 @@ fn rows(rows: &[Row]) -> String {
         ("error", Side::Right),
         ("at the end", Side::Right),
         ("rms", Side::Right),
+        ("halving moves", Side::Right),
         ("CPU per s", Side::Right),
         ("work per s", Side::Right),
         ("exchanges", Side::Right),
@@ -110,6 +111,7 @@ fn rows(rows: &[Row]) -> String {
             error(row.error),
             error(row.error_at_end),
             error(row.error_rms),
+            error(row.moved_by_halving),
             duration(row.cpu_per_second),
             significant(work as f64 / seconds),
             row.collisions.to_string(),
