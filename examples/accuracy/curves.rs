@@ -53,12 +53,12 @@ fn energy() -> Result<(Figure, String), Box<dyn Error>> {
         ratios.iter().map(|ratio| Ok((*ratio, hit(*ratio)?))).collect()
     };
     let all = vec![
+        series("m1/m2", 4, ratios.iter().map(|ratio| (*ratio, *ratio)).collect()),
         series("document, μ = 1", 0, measured(&|ratio| scenes::head_on(ratio, 1.0, true))?),
         series("document, μ = 0.5", 1, measured(&|ratio| scenes::head_on(ratio, 0.5, true))?),
         series("impulse, restitution 1", 2, measured(&|ratio| scenes::head_on(ratio, 1.0, false))?),
-        series("m₁/m₂".replace('₁', "1").replace('₂', "2").as_str(), 4, ratios.iter().map(|r| (*r, *r)).collect()),
     ];
-    let told = side_by_side(&["m1/m2", "document, μ = 1", "document, μ = 0.5", "impulse, e = 1", "exact m1/m2"], &all);
+    let told = side_by_side(&["m1/m2", "exact m1/m2", "document, μ = 1", "document, μ = 0.5", "impulse, e = 1"], &all);
     let figure = Figure {
         title: "Energy after a head-on hit over energy before".to_owned(),
         subtitle: "two mobile bodies, the struck one at rest; 1 keeps all energy, more comes from nowhere".to_owned(),
@@ -128,30 +128,37 @@ fn stuck() -> Result<(Figure, String), Box<dyn Error>> {
 /// What a flat, centred hit leaves, against how long the body is.
 fn kicks() -> Result<(Figure, String), Box<dyn Error>> {
     let aspects: Vec<f64> = (-4..=4).map(|k| libm::pow(10.0, 0.25 * f64::from(k))).collect();
-    let document = aspects.iter().map(|a| scenes::flat_hit(*a, true)).collect::<Result<Vec<_>, _>>()?;
-    let impulse = aspects.iter().map(|a| scenes::flat_hit(*a, false)).collect::<Result<Vec<_>, _>>()?;
+    let hits = |model| aspects.iter().map(|aspect| scenes::flat_hit(model, *aspect)).collect::<Result<Vec<_>, _>>();
+    let [document, complete, impulse] = scenes::FLAT.map(hits);
+    let (document, complete, impulse) = (document?, complete?, impulse?);
     let pick = |hits: &[scenes::Leaving], what: fn(&scenes::Leaving) -> f64| {
         aspects.iter().zip(hits).map(|(aspect, hit)| (*aspect, what(hit))).collect::<Vec<_>>()
     };
+    let sideways = |hit: &scenes::Leaving| hit.sideways;
+    let forwards = |hit: &scenes::Leaving| hit.forwards;
     let all = vec![
-        series("document: sideways", 0, pick(&document, |hit| hit.sideways)),
         series("exact a/(1 + a²)", 4, aspects.iter().map(|a| (*a, a / (1.0 + a * a))).collect()),
-        series("document: still forwards", 1, pick(&document, |hit| hit.forwards)),
-        series("impulse: sideways", 2, pick(&impulse, |hit| hit.sideways)),
-        series("impulse: forwards", 3, pick(&impulse, |hit| hit.forwards)),
+        series("document: sideways", 0, pick(&document, sideways)),
+        series("forwards", 1, pick(&document, forwards)),
+        series("document, complete: sideways", 5, pick(&complete, sideways)),
+        series("forwards", 3, pick(&complete, forwards)),
+        series("impulse: forwards", 2, pick(&impulse, forwards)),
     ];
-    let head = [
-        "length / width a",
-        "document: sideways / v",
-        "exact a/(1 + a²)",
-        "document: forwards / v",
-        "impulse: sideways / v",
-        "impulse: forwards / v",
-    ];
-    let told = side_by_side(&head, &all);
+    let told = side_by_side(
+        &[
+            "length / width a",
+            "exact a/(1 + a²)",
+            "document: sideways / v",
+            "forwards / v",
+            "document, complete: sideways / v",
+            "forwards / v",
+            "impulse: forwards / v",
+        ],
+        &all,
+    );
     let figure = Figure {
         title: "What a flat, centred hit leaves of a speed".to_owned(),
-        subtitle: "a box flies straight at a wall with its face first; right is 0 sideways and, with restitution 1, −1 forwards".to_owned(),
+        subtitle: "a box flies straight at a wall with its face first; right is 0 sideways (as impulse has it) and, with restitution 1, −1 forwards".to_owned(),
         x: Axis::log("length along the flight / width"),
         y: Axis::linear("speed after / speed before"),
         series: all,

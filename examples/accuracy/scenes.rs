@@ -2,7 +2,7 @@
 
 use std::error::Error;
 
-use choque_engine::scene::{Body, Detection, ExchangeRule, Kind, MotionRule, Settings};
+use choque_engine::scene::{Body, Detection, Kind, MotionRule, Settings};
 
 use crate::stage::{DOCUMENT, IMPULSE, Model, body, moving, run};
 
@@ -64,6 +64,9 @@ pub(crate) fn exchanges(mu: Option<f64>, epsilon: f64) -> Result<u64, Box<dyn Er
     Ok(run(settings, vec![wall, car], PUSHED_FOR, |_| false)?.collisions())
 }
 
+/// The models whose flat hits are compared.
+pub(crate) const FLAT: [Model; 3] = [DOCUMENT, Model { detection: Detection::Complete, ..DOCUMENT }, IMPULSE];
+
 /// What a hit leaves, as shares of the speed before.
 #[derive(Clone, Copy)]
 pub(crate) struct Leaving {
@@ -72,9 +75,7 @@ pub(crate) struct Leaving {
 }
 
 /// A box of that length over its width, 1 m² large, flies straight and flat at the middle of a wall.
-pub(crate) fn flat_hit(aspect: f64, is_document: bool) -> Result<Leaving, Box<dyn Error>> {
-    let model = if is_document { DOCUMENT } else { IMPULSE };
-    debug_assert_eq!(model.exchange == ExchangeRule::Document, is_document);
+pub(crate) fn flat_hit(model: Model, aspect: f64) -> Result<Leaving, Box<dyn Error>> {
     let (length, width) = (aspect.sqrt(), 1.0 / aspect.sqrt());
     let bodies = vec![
         body("wall", Kind::Fixed, [1.0, 40.0], (0.0, 0.0)),

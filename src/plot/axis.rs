@@ -58,7 +58,11 @@ impl Range {
         if low > high {
             (low, high) = (0.0, 1.0);
         }
-        let unit = if scale == Scale::Log { 1.0 } else { nice_step((high - low).max(1e-300)) };
+        if low == high && scale == Scale::Linear {
+            let half = 0.5 * low.abs().max(1.0);
+            (low, high) = (low - half, high + half);
+        }
+        let unit = if scale == Scale::Log { 1.0 } else { nice_step(high - low) };
         (low, high) = (unit * (low / unit + 1e-9).floor(), unit * (high / unit - 1e-9).ceil());
         if low == high {
             high = low + unit;

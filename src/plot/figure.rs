@@ -53,7 +53,7 @@ const SIDES: [f64; 2] = [78.0, WIDTH - 24.0];
 const BOTTOM: f64 = HEIGHT - 62.0;
 
 /// How much of a curve the legend shows.
-const PIECE: f64 = 38.0;
+const PIECE: f64 = 34.0;
 
 const TITLE: Pen = Pen { size: 11.5, weight: 1.9, colour: INK };
 const SUBTITLE: Pen = Pen { size: 8.4, weight: 1.0, colour: FAINT };
@@ -98,7 +98,7 @@ impl Figure {
             }
             series.look.mark(drawing, [x + 0.5 * PIECE, y]);
             drawing.text([x + PIECE + 6.0, y + 0.5 * NAME.size], Anchor::Start, &series.name, NAME);
-            x += wide + 22.0;
+            x += wide + 17.0;
         }
         y + 9.0
     }

@@ -7,18 +7,19 @@ use choque_engine::scene::{Detection, ExchangeRule, MotionRule};
 use choque_scripting::Scenario;
 
 use super::advice;
+use super::closed_form::ClosedForm;
 use super::convergence::{LOST, reach, slope};
 use super::copies;
-use super::course::{self, Apart, Course, Plan};
+use super::course::{Apart, Plan};
 use super::errors::{self, Errors};
 use super::horizon::{self, Growth};
-use super::jobs::share;
 use super::ladder::Ladder;
 use super::method::Method;
 use super::poses::Shapes;
 use super::recipe::{Recipe, Start, Variant};
-use super::reference::{self, Earned, Reference};
-use super::study::{Build, Referred, Row, Study, Summary};
+use super::reference::{Earned, Reference};
+use super::search::{References, Search, both, models_apart, referred};
+use super::study::{Build, Row, Study, Summary};
 use super::survey::{Runs, survey};
 use super::timing::{self, Cost, Patience};
 use super::{closed_form, notes};
@@ -56,42 +57,22 @@ pub fn study(recipe: &Recipe, given: Option<&Path>, depth: Depth, threads: usize
     let scenario = recipe.as_written()?;
     let own = own_method(&scenario)?;
     let ladder = Ladder::of(scenario.scene(), depth.rungs);
-    let mut shapes = Shapes::of(scenario.scene());
+    let shapes = Shapes::of(scenario.scene());
     if shapes.is_empty() || ladder.time <= 0.0 {
         return Err(notes::nothing_to_compare(recipe.file()));
     }
-    let is_impulse = scenario.scene().settings.exchange == ExchangeRule::Impulse;
     let given = given.map(|file| closed_form::read(file, scenario.scene(), &ladder)).transpose()?;
-    let growth = growth(recipe, &ladder, &shapes);
-    let last = growth.map_or(ladder.coarsest, |growth| growth.measured);
-    let mut checkpoints = ladder.checkpoints([ladder.coarsest, last]);
-    if let Some(given) = &given {
-        (shapes, checkpoints) = (given.shapes.clone(), given.checkpoints.clone());
-    }
-    let plan = Plan { ladder: &ladder, shapes: &shapes, checkpoints: &checkpoints };
-    let mut all = survey(recipe, &plan, threads, depth.longest)?;
-    let mut references = match given {
-        Some(given) => {
-            let given = Reference { earned: Earned::Given, method: None, finest: 0, from: 0, stands: given.stands };
-            both(&all).into_iter().map(|detection| (detection, Some(given.clone()))).collect()
-        }
-        None => find_all(recipe, &plan, &all, growth, is_impulse, threads),
-    };
-    // What differences have grown beyond measure in is left out, unless it turned out to be exact all the same.
-    let is_chaotic =
-        growth.is_some_and(|growth| growth.horizon.is_some()) && references.iter().any(|(_, r)| r.is_none());
-    let kept: Vec<u64> = checkpoints.iter().copied().filter(|moment| !is_chaotic || *moment <= last).collect();
-    let plan = Plan { checkpoints: &kept, ..plan };
-    if is_chaotic {
-        all.iter_mut().flat_map(|runs| &mut runs.courses).for_each(|course| course.stands.truncate(kept.len()));
-        references = find_all(recipe, &plan, &all, growth, is_impulse, threads);
-    }
+    let is_impulse = scenario.scene().settings.exchange == ExchangeRule::Impulse;
+    let search = Search { recipe, growth: growth(recipe, &ladder, &shapes), is_impulse, threads };
+    let compared = compare(&search, &ladder, shapes, given, depth)?;
+    let Compared { shapes, checkpoints, all, references, is_chaotic } = &compared;
+    let plan = Plan { ladder: &ladder, shapes, checkpoints };
     let of = |detection| references.iter().find(|(d, _)| *d == detection).and_then(|(_, reference)| reference.clone());
-    let errors = errors::measure(recipe, &plan, &all, of, threads);
-    let costs = time(recipe, &ladder, &all, depth)?;
-    let rows = rows(&plan, &all, &errors, &costs);
+    let errors = errors::measure(recipe, &plan, all, of, threads);
+    let costs = time(recipe, &ladder, all, depth)?;
+    let rows = rows(&plan, all, &errors, &costs);
     let methods = all.iter().map(|runs| summary(runs, &ladder, &rows, of(runs.method.detection).as_ref())).collect();
-    let comparisons = if is_chaotic {
+    let comparisons = if *is_chaotic {
         let tried: Vec<Method> = all.iter().map(|runs| runs.method).collect();
         let detection = if is_impulse { Detection::Complete } else { own.detection };
         let best = Method { motion: MotionRule::Continuous, detection };
@@ -108,9 +89,9 @@ pub fn study(recipe: &Recipe, given: Option<&Path>, depth: Depth, threads: usize
         time: ladder.time,
         bodies: shapes.len(),
         own,
-        growth,
-        measured_until: kept.last().map_or(0.0, |last| *last as f64 * ladder.time_step(0)),
-        models_apart: models_apart(&shapes, &references),
+        growth: search.growth,
+        measured_until: checkpoints.last().map_or(0.0, |last| *last as f64 * ladder.time_step(0)),
+        models_apart: models_apart(shapes, references),
         references: references.iter().map(|(detection, reference)| referred(*detection, reference.as_ref())).collect(),
         rows,
         methods,
@@ -119,8 +100,50 @@ pub fn study(recipe: &Recipe, given: Option<&Path>, depth: Depth, threads: usize
         notes: Vec::new(),
     };
     study.advice = advice::advice(&study);
-    study.notes = notes::of(&study, &scenario, &ladder, &all);
+    study.notes = notes::of(&study, &scenario, &ladder, all);
     Ok(study)
+}
+
+/// All runs, and what they are measured against.
+struct Compared {
+    shapes: Shapes,
+    checkpoints: Vec<u64>,
+    all: Vec<Runs>,
+    references: References,
+    /// Differences grow so fast that only the beginning is measured, and statistics tell of the rest.
+    is_chaotic: bool,
+}
+
+/// Makes all runs and finds what they are measured against: what is given, or a reference that earns it. What differences have
+/// grown beyond measure in is left out, unless the reference turns out to be exact all the same.
+fn compare(
+    search: &Search<'_>,
+    ladder: &Ladder,
+    shapes: Shapes,
+    given: Option<ClosedForm>,
+    depth: Depth,
+) -> Result<Compared, Error> {
+    let last = search.growth.map_or(ladder.coarsest, |growth| growth.measured);
+    if let Some(ClosedForm { shapes, checkpoints, stands }) = given {
+        let plan = Plan { ladder, shapes: &shapes, checkpoints: &checkpoints };
+        let all = survey(search.recipe, &plan, search.threads, depth.longest)?;
+        let given = Reference { earned: Earned::Given, method: None, finest: 0, from: 0, stands };
+        let references = both(&all).into_iter().map(|detection| (detection, Some(given.clone()))).collect();
+        return Ok(Compared { shapes, checkpoints, all, references, is_chaotic: false });
+    }
+    let mut checkpoints = ladder.checkpoints([ladder.coarsest, last]);
+    let plan = Plan { ladder, shapes: &shapes, checkpoints: &checkpoints };
+    let mut all = survey(search.recipe, &plan, search.threads, depth.longest)?;
+    let mut references = search.all(&plan, &all);
+    let is_lost = search.growth.is_some_and(|growth| growth.horizon.is_some());
+    let is_chaotic = is_lost && references.iter().any(|(_, reference)| reference.is_none());
+    if is_chaotic {
+        checkpoints.retain(|moment| *moment <= last);
+        let courses = all.iter_mut().flat_map(|runs| &mut runs.courses);
+        courses.for_each(|course| course.stands.truncate(checkpoints.len()));
+        references = search.all(&Plan { ladder, shapes: &shapes, checkpoints: &checkpoints }, &all);
+    }
+    Ok(Compared { shapes, checkpoints, all, references, is_chaotic })
 }
 
 /// The method the scenario itself names.
@@ -133,86 +156,6 @@ fn own_method(scenario: &Scenario) -> Result<Method, Error> {
 /// How differences grow: as the most thorough method that can be run tells.
 fn growth(recipe: &Recipe, ladder: &Ladder, shapes: &Shapes) -> Option<Growth> {
     recipe.methods().into_iter().rev().find_map(|method| horizon::measure(recipe, ladder, shapes, method).ok())
-}
-
-/// The ways of finding collisions that were tried.
-fn both(all: &[Runs]) -> Vec<Detection> {
-    let is_tried = |detection: &Detection| all.iter().any(|runs| runs.method.detection == *detection);
-    [Detection::Vertices, Detection::Complete].into_iter().filter(is_tried).collect()
-}
-
-type References = Vec<(Detection, Option<Reference>)>;
-
-/// A reference for each way of finding collisions. Impulses have one law, which only complete detection gives both points of a flat
-/// hit: its limit is the reference of both. The document's rules treat one vertex with the one and the middle with the
-/// other: two models, each with a limit of its own.
-fn find_all(
-    recipe: &Recipe,
-    plan: &Plan<'_>,
-    all: &[Runs],
-    growth: Option<Growth>,
-    is_impulse: bool,
-    threads: usize,
-) -> References {
-    let tried = both(all);
-    let of = |detection| find(recipe, plan, all, growth, detection, threads);
-    if is_impulse && tried.contains(&Detection::Complete) {
-        let law = of(Detection::Complete);
-        return tried.into_iter().map(|detection| (detection, law.clone())).collect();
-    }
-    tried.into_iter().map(|detection| (detection, of(detection))).collect()
-}
-
-/// Rungs beyond the ladder that a sequence may take to show that it converges.
-const BEYOND: usize = 2;
-
-/// The reference of one way to find collisions: exact if it can be, else converged.
-fn find(
-    recipe: &Recipe,
-    plan: &Plan<'_>,
-    all: &[Runs],
-    growth: Option<Growth>,
-    detection: Detection,
-    threads: usize,
-) -> Option<Reference> {
-    let of = |motion| all.iter().find(|runs| runs.method == Method { motion, detection });
-    if let Some(runs) = of(MotionRule::Continuous) {
-        let courses: Vec<&Course> = runs.courses.iter().collect();
-        let grown = growth.map_or(1.0, |growth| growth.grown);
-        if let Some(exact) = reference::exact(plan, &courses, runs.method, grown) {
-            return Some(exact);
-        }
-    }
-    [MotionRule::Continuous, MotionRule::Stepped].into_iter().filter_map(of).find_map(|runs| {
-        let beyond: Vec<usize> = (0..BEYOND).map(|more| runs.courses.len() + more).collect();
-        let affordable = runs.courses.len() == plan.ladder.rungs && runs.ended.is_none();
-        let finer = if affordable {
-            share(&beyond, threads, "finer runs", |rung| {
-                course::run(recipe, plan, runs.method, *rung, Start::AsWritten).ok()
-            })
-        } else {
-            Vec::new()
-        };
-        let courses: Vec<&Course> = runs.courses.iter().chain(finer.iter().flatten()).collect();
-        reference::converged(plan, &courses, runs.method)
-    })
-}
-
-fn referred(detection: Detection, reference: Option<&Reference>) -> Referred {
-    Referred {
-        detection,
-        earned: reference.map(|reference| reference.earned),
-        method: reference.and_then(|reference| reference.method),
-    }
-}
-
-fn models_apart(shapes: &Shapes, references: &[(Detection, Option<Reference>)]) -> Option<f64> {
-    match references {
-        [(_, Some(a)), (_, Some(b))] if a.method != b.method => {
-            Apart::between(shapes, &a.stands, &b.stands).map(|apart| apart.max)
-        }
-        _ => None,
-    }
 }
 
 /// CPU time of every run, one after the other.

@@ -96,32 +96,35 @@ fn moment(file: &Path, time: f64, ladder: &Ladder) -> Result<u64, Error> {
 
 fn from_csv(file: &Path, text: &str) -> Result<Vec<Known>, Error> {
     let mut lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
-    let complain_at =
-        |line: usize, message: &str| -> Error { Diagnostic::new(message).at(file, text, line + 1, 1).into() };
+    let complain_at = |line: usize, column: usize, message: &str| -> Error {
+        Diagnostic::new(message).at(file, text, line + 1, column + 1).into()
+    };
     match lines.next() {
         Some((_, head)) if head.replace(' ', "") == COLUMNS => {}
-        Some((line, _)) => return Err(complain_at(line, &format!("the first line must be {COLUMNS}"))),
+        Some((line, _)) => return Err(complain_at(line, 0, &format!("the first line must be {COLUMNS}"))),
         None => return Err(complain(file, "it is empty".to_owned())),
     }
-    lines
-        .map(|(line, row)| {
-            let cells: Vec<&str> = row.split(',').map(str::trim).collect();
-            let [time, body, x, z, angle] = cells[..] else {
-                return Err(complain_at(line, &format!("a row has five cells, {COLUMNS}, not {}", cells.len())));
-            };
-            let number = |name: &str, cell: &str| match cell.parse::<f64>() {
-                Ok(number) if number.is_finite() => Ok(number),
-                _ => Err(complain_at(line, &format!("{name} must be a finite number, not `{cell}`"))),
-            };
-            Ok(Known {
-                time: number("time", time)?,
-                body: body.to_owned(),
-                x: number("x", x)?,
-                z: number("z", z)?,
-                angle: number("angle", angle)?,
-            })
+    let known = |(line, row): (usize, &str)| {
+        let cells: Vec<&str> = row.split(',').collect();
+        let [time, body, x, z, angle] = cells[..] else {
+            return Err(complain_at(line, 0, &format!("a row has five cells, {COLUMNS}, not {}", cells.len())));
+        };
+        let number = |cell: usize, name: &str, text: &str| match text.trim().parse::<f64>() {
+            Ok(number) if number.is_finite() => Ok(number),
+            _ => {
+                let column = cells[..cell].iter().map(|before| before.chars().count() + 1).sum();
+                Err(complain_at(line, column, &format!("{name} must be a finite number, not `{}`", text.trim())))
+            }
+        };
+        Ok(Known {
+            time: number(0, "time", time)?,
+            body: body.trim().to_owned(),
+            x: number(2, "x", x)?,
+            z: number(3, "z", z)?,
+            angle: number(4, "angle", angle)?,
         })
-        .collect()
+    };
+    lines.map(known).collect()
 }
 
 fn from_ron(file: &Path, text: &str) -> Result<Vec<Known>, Error> {

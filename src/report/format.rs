@@ -59,6 +59,6 @@ mod tests {
     fn numbers_have_as_many_digits_as_say_something() {
         assert_eq!([significant(0.012345), significant(1234.5), significant(1.2e-7)], ["0.0123", "1234", "1.2e-7"]);
         assert_eq!([times(7.31), times(254.0), times(12.0), times(1.23e7)], ["7.3", "250", "12", "1e7"]);
-        assert_eq!([error(None), error(Some(0.0)), error(Some(1.25e-3))], ["–", "0", "1.2e-3"]);
+        assert_eq!([error(None), error(Some(0.0)), error(Some(1.24e-3))], ["–", "0", "1.2e-3"]);
     }
 }

@@ -4,10 +4,10 @@
 //! |---|---|
 //! | which time steps, which methods, which start? | [`ladder`], [`method`], [`recipe`] |
 //! | how far off is a result? | [`poses`], [`course`] |
-//! | what is it measured against, and has that earned it? | [`reference`], [`convergence`], [`closed_form`] |
-//! | how far ahead can the scene be foretold? | [`horizon`]; then [`copies`] and [`statistics`] speak instead |
+//! | what is it measured against, and has that earned it? | [`search`], [`mod@reference`], [`convergence`], [`closed_form`] |
+//! | how far ahead can the scene be foretold? | [`horizon`]; then [`copies`], [`quantities`] and [`statistics`] speak instead |
 //! | what does it cost? | [`timing`], counted work |
-//! | how is all that put together? | [`assemble`]: [`survey`], [`errors`], [`study`] |
+//! | how is all that put together? | [`assemble`]: [`survey`], [`errors`], [`mod@study`] |
 //! | what is said of it? | [`told`], [`advice`], [`notes`], [`picture`], [`files`] |
 
 pub mod advice;
@@ -26,9 +26,11 @@ pub mod method;
 pub mod notes;
 pub mod picture;
 pub mod poses;
+pub mod quantities;
 pub mod random;
 pub mod recipe;
 pub mod reference;
+pub mod search;
 pub mod statistics;
 pub mod study;
 pub mod survey;

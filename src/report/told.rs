@@ -49,7 +49,7 @@ pub fn text(study: &Study) -> String {
 pub fn references(study: &Study) -> Vec<String> {
     let mut lines = Vec::new();
     match study.references.as_slice() {
-        [a, b] if (a.earned, a.method) == (b.earned, b.method) => lines.push(reference(a, "")),
+        [a, b] if (a.earned, a.method) == (b.earned, b.method) => lines.push(reference(a, "all methods")),
         several => lines.extend(several.iter().map(|referred| reference(referred, referred.detection.word()))),
     }
     if let Some(apart) = study.models_apart {
@@ -71,18 +71,17 @@ pub fn references(study: &Study) -> Vec<String> {
 }
 
 fn reference(referred: &Referred, whose: &str) -> String {
-    let whose = if whose.is_empty() { String::new() } else { format!("{whose}: ") };
     let made_by = referred.method.map(Method::name).unwrap_or_default();
     match referred.earned {
-        Some(Earned::Given) => "the reference given".to_owned(),
+        Some(Earned::Given) => format!("{whose}: the reference given"),
         Some(Earned::Exact { to_itself, from, .. }) => {
             let from = time_step_in_words(from);
-            format!("{whose}{made_by}, exact: every time step ≤ {from} gives the same to {to_itself:.1e}")
+            format!("{whose}: {made_by} (exact: every time step ≤ {from} gives the same to {to_itself:.1e})")
         }
         Some(Earned::Converged { order, remainder }) => {
-            format!("{whose}{made_by}, converged with order {order:.2}, {remainder:.1e} from its limit")
+            format!("{whose}: {made_by} (converged with order {order:.2}, {remainder:.1e} from its limit)")
         }
-        None => format!("{whose}no reference: no method is exact or converges, so no errors are told"),
+        None => format!("{whose}: no reference, for no method is exact or converges: no errors are told"),
     }
 }
 

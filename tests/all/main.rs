@@ -6,6 +6,7 @@ mod exact;
 mod harness;
 mod metamorphic;
 mod project;
+mod report;
 mod snapshots;
 mod support;
 mod tidy;
