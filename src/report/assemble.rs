@@ -148,9 +148,8 @@ fn compare(
 
 /// The method the scenario itself names.
 fn own_method(scenario: &Scenario) -> Result<Method, Error> {
-    let run = scenario.start()?;
-    let world = run.world();
-    Ok(Method { motion: world.plan().motion, detection: world.plan().detection })
+    let detection = scenario.start()?.world().plan().detection;
+    Ok(Method { motion: scenario.scene().settings.motion, detection })
 }
 
 /// How differences grow: as the most thorough method that can be run tells.
