@@ -60,7 +60,7 @@ impl Quantities {
             "contact depth, greatest / least half width",
             "contact depth, 99.9 % / least half width",
             "deepest overlap / least half width",
-            "time to rest [s]",
+            "time to rest, or the whole run [s]",
             "x, 5 % of bodies [m]",
             "x, middle [m]",
             "x, 95 % [m]",

@@ -81,7 +81,7 @@ pub fn exact(plan: &Plan<'_>, courses: &[&Course], method: Method, growth: f64) 
     let apart = |course: &&Course| Apart::between(plan.shapes, &course.stands, &finest.stands).map(|apart| apart.max);
     let (mut to_itself, mut from) = (0.0, courses.len());
     for (rung, course) in courses.iter().enumerate().rev() {
-        match apart(course).filter(|apart| *apart <= allowed && course.collisions == finest.collisions) {
+        match apart(course).filter(|apart| *apart <= allowed) {
             Some(apart) => (to_itself, from) = (f64::max(to_itself, apart), rung),
             None => break,
         }
