@@ -12,7 +12,7 @@ use super::convergence::{LOST, reach, slope};
 use super::copies;
 use super::course::{Apart, Plan};
 use super::errors::{self, Errors};
-use super::horizon::{self, Growth};
+use super::horizon::{self, Growth, MEASURABLE};
 use super::ladder::Ladder;
 use super::method::Method;
 use super::poses::Shapes;
@@ -114,8 +114,8 @@ struct Compared {
     is_chaotic: bool,
 }
 
-/// Makes all runs and finds what they are measured against: what is given, or a reference that earns it. What differences have
-/// grown beyond measure in is left out, unless the reference turns out to be exact all the same.
+/// Makes all runs and finds what they are measured against: what is given, or a reference that earns it. Where none does to the end, only
+/// the time is kept in which differences have not grown beyond measure.
 fn compare(
     search: &Search<'_>,
     ladder: &Ladder,
@@ -134,14 +134,14 @@ fn compare(
     let mut checkpoints = ladder.checkpoints([ladder.coarsest, last]);
     let plan = Plan { ladder, shapes: &shapes, checkpoints: &checkpoints };
     let mut all = survey(search.recipe, &plan, search.threads, depth.longest)?;
-    let mut references = search.all(&plan, &all);
-    let is_lost = search.growth.is_some_and(|growth| growth.horizon.is_some());
-    let is_chaotic = is_lost && references.iter().any(|(_, reference)| reference.is_none());
+    let mut references = search.all(&plan, &all, search.growth.map_or(1.0, |growth| growth.by_end));
+    let is_chaotic = last < ladder.coarsest && references.iter().any(|(_, reference)| reference.is_none());
     if is_chaotic {
         checkpoints.retain(|moment| *moment <= last);
         let courses = all.iter_mut().flat_map(|runs| &mut runs.courses);
         courses.for_each(|course| course.stands.truncate(checkpoints.len()));
-        references = search.all(&Plan { ladder, shapes: &shapes, checkpoints: &checkpoints }, &all);
+        let plan = Plan { ladder, shapes: &shapes, checkpoints: &checkpoints };
+        references = search.all(&plan, &all, MEASURABLE);
     }
     Ok(Compared { shapes, checkpoints, all, references, is_chaotic })
 }

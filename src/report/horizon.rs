@@ -13,9 +13,9 @@ use crate::Error;
 const BESIDE: f64 = 1e-12;
 /// Where the difference has come to this, in half diagonals, nothing is foretold any more.
 const LOST: f64 = 1e-3;
-/// Errors of a chaotic scene are measured as long as differences have not grown more than this; beyond, an error says more about
-/// the scene than about the method.
-const MEASURABLE: f64 = 1e3;
+/// Where no reference holds to the end, errors are measured as long as differences have not grown more than this; beyond, an
+/// error says more about the scene than about the method.
+pub const MEASURABLE: f64 = 1e3;
 
 /// How differences grow. A scene whose differences grow a billionfold is called chaotic.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -24,10 +24,10 @@ pub struct Growth {
     pub horizon: Option<f64>,
     /// By how much differences grow in a second, on average up to there.
     pub per_second: f64,
-    /// How many times a difference has grown by then.
-    pub grown: f64,
+    /// How many times a difference has grown by the end.
+    pub by_end: f64,
     /// The last moment at which an error still says more about the method than about the scene, in iterations of the longest
-    /// time step.
+    /// time step: a difference has not grown more than a thousandfold.
     pub measured: u64,
 }
 
@@ -66,17 +66,14 @@ fn judge(apart: &[f64], ladder: &Ladder) -> Growth {
         .collect();
     let lost = grown.iter().position(|grown| *grown >= LOST / BESIDE);
     let last = grown.len().saturating_sub(1);
-    let measured = match lost {
-        Some(_) => grown.iter().rposition(|grown| *grown <= MEASURABLE).unwrap_or(0),
-        None => last,
-    };
+    let measured = grown.iter().rposition(|grown| *grown <= MEASURABLE).unwrap_or(0);
     let second = |index: usize| ladder.time * index as f64 / ladder.coarsest as f64;
     let until = lost.unwrap_or(last);
     let per_second = libm::pow(grown.get(until).copied().unwrap_or(1.0).max(1.0), 1.0 / second(until.max(1)));
     Growth {
         horizon: lost.map(second),
         per_second,
-        grown: grown.get(measured).copied().unwrap_or(1.0).max(1.0),
+        by_end: grown.last().copied().unwrap_or(1.0).max(1.0),
         measured: measured as u64,
     }
 }
@@ -101,6 +98,6 @@ mod tests {
         let apart: Vec<f64> = (0..=300).map(|i| BESIDE * (1.0 + f64::from(i))).collect();
         let growth = judge(&apart, &LADDER);
         assert_eq!((growth.horizon, growth.measured), (None, 300));
-        assert!((growth.grown - 301.0).abs() < 1e-9);
+        assert!((growth.by_end - 301.0).abs() < 1e-9);
     }
 }

@@ -24,7 +24,7 @@ pub(super) type References = Vec<(Detection, Option<Reference>)>;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Search<'a> {
     pub(super) recipe: &'a Recipe,
-    /// How differences grow: rounding may grow as fast.
+    /// How differences grow, and with them rounding.
     pub(super) growth: Option<Growth>,
     /// Whether bodies exchange impulses.
     pub(super) is_impulse: bool,
@@ -37,22 +37,22 @@ const BEYOND: usize = 2;
 impl Search<'_> {
     /// A reference for each way of finding collisions. Impulses have one law, which only complete detection gives both points of a
     /// flat hit: its limit is the reference of both. The document's rules treat one vertex with the one and the middle
-    /// with the other: two models, each with a limit of its own.
-    pub(super) fn all(&self, plan: &Plan<'_>, all: &[Runs]) -> References {
+    /// with the other: two models, each with a limit of its own. `grown` is how many times a difference has grown by the last
+    /// moment compared.
+    pub(super) fn all(&self, plan: &Plan<'_>, all: &[Runs], grown: f64) -> References {
         let tried = both(all);
         if self.is_impulse && tried.contains(&Detection::Complete) {
-            let law = self.find(plan, all, Detection::Complete);
+            let law = self.find(plan, all, Detection::Complete, grown);
             return tried.into_iter().map(|detection| (detection, law.clone())).collect();
         }
-        tried.into_iter().map(|detection| (detection, self.find(plan, all, detection))).collect()
+        tried.into_iter().map(|detection| (detection, self.find(plan, all, detection, grown))).collect()
     }
 
     /// The reference of one way to find collisions: exact if it can be, else converged.
-    fn find(&self, plan: &Plan<'_>, all: &[Runs], detection: Detection) -> Option<Reference> {
+    fn find(&self, plan: &Plan<'_>, all: &[Runs], detection: Detection, grown: f64) -> Option<Reference> {
         let of = |motion| all.iter().find(|runs| runs.method == Method { motion, detection });
         if let Some(runs) = of(MotionRule::Continuous) {
             let courses: Vec<&Course> = runs.courses.iter().collect();
-            let grown = self.growth.map_or(1.0, |growth| growth.grown);
             if let Some(exact) = reference::exact(plan, &courses, runs.method, grown) {
                 return Some(exact);
             }

@@ -4,7 +4,6 @@ use super::advice::deeds;
 use super::convergence::Reach;
 use super::copies::Comparison;
 use super::format::{error, significant, time_step_in_words};
-use super::horizon::Growth;
 use super::method::Method;
 use super::reference::Earned;
 use super::study::{Referred, Row, Study, Summary};
@@ -58,14 +57,13 @@ pub fn references(study: &Study) -> Vec<String> {
     }
     lines.push(match study.growth {
         None => "how differences grow is not known: no run could be made".to_owned(),
-        Some(Growth { horizon: None, grown, .. }) => {
-            format!("a difference at the start grows {} × by the end: not chaotic", significant(grown))
+        Some(growth) => {
+            let grown = format!("a difference at the start grows {} × by the end", significant(growth.by_end));
+            let lost = growth.horizon.map(|lost| format!("; 1e-12 is 1e-3 after {} s", significant(lost)));
+            let until = study.measured_until;
+            let cut = (until < 0.999 * study.time).then(|| format!("; errors are told up to {} s", significant(until)));
+            [grown, lost.unwrap_or_default(), cut.unwrap_or_default()].concat()
         }
-        Some(Growth { horizon: Some(horizon), .. }) => format!(
-            "sensitive: a difference of 1e-12 at the start is 1e-3 after {} s; errors are told up to {} s",
-            significant(horizon),
-            significant(study.measured_until),
-        ),
     });
     lines
 }
