@@ -43,6 +43,23 @@ pub struct ScenarioArguments {
     script_timeout: Duration,
 }
 
+impl Default for ScenarioArguments {
+    /// Nothing overridden.
+    fn default() -> Self {
+        ScenarioArguments {
+            steps: None,
+            time_step: None,
+            set: Vec::new(),
+            exchange: None,
+            detection: None,
+            motion: None,
+            broad_phase: None,
+            library: None,
+            script_timeout: Options::default().script_timeout,
+        }
+    }
+}
+
 impl ScenarioArguments {
     /// The same, as the scripting crate wants it.
     #[must_use]

@@ -4,7 +4,7 @@ use choque_engine::Ledger;
 use choque_engine::ledger::{Amounts, Cause};
 use serde::ser::{Serialize, SerializeStruct, Serializer};
 
-use crate::report::positive_zero;
+use crate::outcome::positive_zero;
 
 /// What a run's ledger came to: `initial`, `booked` by quantity and cause, `relocated` and `relocations`. What was there at
 /// the start and all that was booked add up to the totals of the run.

@@ -7,8 +7,9 @@ use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
 
 use crate::arguments::ScenarioArguments;
+use crate::report::ReportArguments;
 use crate::run::RunArguments;
-use crate::{Error, Verdict, check, explain, export, init, run, terminal, words};
+use crate::{Error, Verdict, check, explain, export, init, report, run, terminal, words};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -54,6 +55,13 @@ Examples:
         #[command(flatten)]
         scenario: ScenarioArguments,
     },
+    /// Measure speed against error: every method with time steps from 1/30 to 1/15360, and what the scene needs
+    #[command(after_help = "\
+Examples:
+  choque report scenarios/hard/c1_vertex_meets_face.rhai
+  choque report pile.rhai --quick -o measured
+  choque report gas.rhai --reference known.csv")]
+    Report(ReportArguments),
     /// Write a scenario's scene as plain data, without callbacks
     #[command(after_help = "\
 Examples:
@@ -120,6 +128,7 @@ impl Call {
             Call::Run(arguments) => run::run(arguments),
             Call::Check { files, scenario } => check::check(files, &scenario.options()),
             Call::Explain { file, scenario } => explain::explain(file, &scenario.options()),
+            Call::Report(arguments) => report::report(arguments),
             Call::Export { file, output, scenario } => export::export(file, output.as_deref(), &scenario.options()),
             Call::Words { name, definitions } => words::words(name.as_deref(), definitions.as_deref()),
             Call::Init { directory, choque_path } => init::init(directory, choque_path.as_deref()),

@@ -3,9 +3,9 @@
 //! | what | file |
 //! |---|---|
 //! | calls and flags | [`cli`], [`arguments`] |
-//! | a scenario played to its end, and what is told of it | [`play`], [`report`], [`books`], [`readings`], [`notable`] |
-//! | what each call does | [`run`], [`check`], [`explain`], [`export`], [`words`], [`init`] |
-//! | how it is printed | [`output`], [`written`], [`terminal`], [`progress`], [`clock`] |
+//! | a scenario played to its end, and what is told of it | [`play`], [`outcome`], [`books`], [`readings`], [`notable`] |
+//! | what each call does | [`run`], [`check`], [`explain`], [`export`], [`words`], [`init`], [`report`] |
+//! | how it is printed | [`output`], [`plot`], [`written`], [`terminal`], [`progress`], [`clock`] |
 //! | one test per scenario, pinned by a snapshot | [`harness`] |
 //!
 //! The physics is `choque-engine`'s, the language `choque-scripting`'s; here are files, clocks and terminals only.
@@ -21,8 +21,10 @@ pub mod export;
 pub mod harness;
 pub mod init;
 pub mod notable;
+pub mod outcome;
 pub mod output;
 pub mod play;
+pub mod plot;
 pub mod progress;
 pub mod readings;
 pub mod report;

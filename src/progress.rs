@@ -15,6 +15,8 @@ const PATIENCE: Duration = Duration::from_secs(1);
 pub struct Progress {
     state: State,
     steps: u64,
+    /// What is counted, in the plural.
+    what: &'static str,
 }
 
 #[derive(Debug)]
@@ -29,16 +31,22 @@ impl Progress {
     /// For a run of that many iterations, which begins now.
     #[must_use]
     pub fn new(steps: u64) -> Self {
-        let state = if stderr().is_terminal() { State::Waiting(clock::now()) } else { State::Unseen };
-        Progress { state, steps }
+        Progress::of(steps, "iterations")
     }
 
-    /// So many iterations are finished.
+    /// For so many of something, which begins now.
+    #[must_use]
+    pub fn of(steps: u64, what: &'static str) -> Self {
+        let state = if stderr().is_terminal() { State::Waiting(clock::now()) } else { State::Unseen };
+        Progress { state, steps, what }
+    }
+
+    /// So many are finished.
     pub fn reached(&mut self, iteration: u64) {
         match &self.state {
             State::Unseen => {}
             State::Waiting(since) if since.elapsed() < PATIENCE => {}
-            State::Waiting(since) => self.state = State::Shown(bar(self.steps, since.elapsed())),
+            State::Waiting(since) => self.state = State::Shown(bar(self.steps, self.what, since.elapsed())),
             State::Shown(bar) => bar.set_position(iteration),
         }
     }
@@ -52,10 +60,10 @@ impl Drop for Progress {
     }
 }
 
-fn bar(steps: u64, elapsed: Duration) -> ProgressBar {
+fn bar(steps: u64, what: &'static str, elapsed: Duration) -> ProgressBar {
     let bar = ProgressBar::with_draw_target(Some(steps), ProgressDrawTarget::stderr()).with_elapsed(elapsed);
-    match ProgressStyle::with_template("{bar:40} {pos} of {len} iterations, {eta} left") {
-        Ok(style) => bar.with_style(style),
+    match ProgressStyle::with_template("{bar:40} {pos} of {len} {msg}, {eta} left") {
+        Ok(style) => bar.with_style(style).with_message(what),
         Err(_) => bar,
     }
 }

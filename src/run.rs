@@ -6,11 +6,11 @@ use choque_engine::{Hit, World, note};
 use choque_scripting::Scenario;
 
 use crate::arguments::ScenarioArguments;
+use crate::outcome::Outcome;
 use crate::output::rows::{self, Rows};
 use crate::output::{json, ron, text};
 use crate::play::{FirstMeetings, Watch, play};
 use crate::progress::Progress;
-use crate::report::Report;
 use crate::{Error, Verdict, terminal};
 
 /// What `run` is given.
@@ -68,8 +68,8 @@ pub fn run(arguments: &RunArguments) -> Result<Verdict, Error> {
     drop(progress); // clears its line before anything else is printed
     let expectations = played?;
     let world = run.world();
-    let report = Report::new(&scenario, &world, expectations);
-    if let Some(total) = report.total_beyond_numbers() {
+    let outcome = Outcome::new(&scenario, &world, expectations);
+    if let Some(total) = outcome.total_beyond_numbers() {
         return Err(Error::Call {
             message: format!("the {total} is beyond the range of numbers, though no single body is"),
             hint: "look for a huge mass or velocity".to_owned(),
@@ -81,13 +81,13 @@ pub fn run(arguments: &RunArguments) -> Result<Verdict, Error> {
     match arguments.format {
         Format::Text => {
             let told =
-                text::Told { scene: scenario.scene(), world: &world, report: &report, meetings: &meetings.meetings };
+                text::Told { scene: scenario.scene(), world: &world, outcome: &outcome, meetings: &meetings.meetings };
             terminal::tell(&text::summary(&told, arguments.verbose));
         }
-        Format::Json => terminal::answer(&json::object(&report)?)?,
-        Format::Ron => terminal::answer(&ron::report(&report)?)?,
+        Format::Json => terminal::answer(&json::object(&outcome)?)?,
+        Format::Ron => terminal::answer(&ron::outcome(&outcome)?)?,
     }
-    Ok(if report.holds() { Verdict::Holds } else { Verdict::ExpectationFailed })
+    Ok(if outcome.holds() { Verdict::Holds } else { Verdict::ExpectationFailed })
 }
 
 struct Watcher {

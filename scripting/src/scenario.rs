@@ -63,6 +63,11 @@ impl Scenario {
         &self.scene
     }
 
+    /// The scene, to be changed before a run starts: bodies keep their number and names. Callbacks stay as they are.
+    pub fn scene_mut(&mut self) -> &mut Scene {
+        &mut self.scene
+    }
+
     /// The file's name without its extension.
     #[must_use]
     pub fn name(&self) -> &str {

@@ -7,9 +7,9 @@ use super::discover::Case;
 use super::snapshot::{BodyRow, Checkpoint, ExtremeRow, MeetingRow, Snapshot, Totals, rounded, significant};
 use crate::Error;
 use crate::notable::{Extreme, Notable, notable};
+use crate::outcome::{Judgement, hexadecimal};
 use crate::output::ron;
 use crate::play::{FirstMeetings, Meeting, Watch, play};
-use crate::report::{Judgement, hexadecimal};
 
 /// How many pairs that met are written down: enough to see how a scene begins.
 const MEETINGS: usize = 8;

@@ -5,8 +5,8 @@ use ron::ser::to_string_pretty;
 use serde::{Deserialize, Serialize};
 
 use crate::Error;
+use crate::outcome::Judgement;
 use crate::output::ron::layout;
-use crate::report::Judgement;
 
 /// A scenario and its outcome. Rows and totals are rounded, so that they move with the physics and not with the last
 /// bit of it; the digests are over every bit.

@@ -5,17 +5,17 @@ use choque_engine::Scene;
 use serde::Serialize;
 
 use crate::Error;
-use crate::report::Report;
+use crate::outcome::Outcome;
 
 /// Lists and structures open up so far; what lies deeper, such as a body, stays on one line.
 const DEPTH: usize = 2;
 
-/// The report as RON and a newline.
+/// The outcome of a run as RON and a newline.
 ///
 /// # Errors
-/// None that a report can cause; the serialiser's own are passed on.
-pub fn report(report: &Report) -> Result<String, Error> {
-    pretty(report, "the report")
+/// None that an outcome can cause; the serialiser's own are passed on.
+pub fn outcome(outcome: &Outcome) -> Result<String, Error> {
+    pretty(outcome, "the outcome")
 }
 
 /// A scene as RON and a newline; `choque run` reads it back.
@@ -26,7 +26,11 @@ pub fn scene(scene: &Scene) -> Result<String, Error> {
     pretty(scene, "the scene")
 }
 
-fn pretty<T: Serialize>(value: &T, what: &str) -> Result<String, Error> {
+/// Any data as RON and a newline.
+///
+/// # Errors
+/// What the serialiser refuses.
+pub fn pretty<T: Serialize>(value: &T, what: &str) -> Result<String, Error> {
     let text = to_string_pretty(value, layout()).map_err(|error| Error::unwritable(what, &error))?;
     Ok(text + "\n")
 }

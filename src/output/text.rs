@@ -4,11 +4,11 @@ use choque_engine::scene::{Kind, Scene};
 use choque_engine::{BodyId, World};
 
 use crate::notable::{Notable, notable};
+use crate::outcome::{Judgement, Outcome};
 use crate::output::ledger;
 use crate::output::numbers::{counted, duration, short, trimmed};
 use crate::output::table::{Side, table};
 use crate::play::Meeting;
-use crate::report::{Judgement, Report};
 use crate::terminal::{BAD, FAINT, GOOD, HEADING, styled};
 
 /// Everything a summary tells of.
@@ -19,7 +19,7 @@ pub struct Told<'a> {
     /// The world at the end.
     pub world: &'a World,
     /// The same as data.
-    pub report: &'a Report,
+    pub outcome: &'a Outcome,
     /// The pairs that met first.
     pub meetings: &'a [Meeting],
 }
@@ -31,8 +31,8 @@ const SHORT_PLAN: [&str; 2] = ["bodies:", "exchange:"];
 /// counted work.
 #[must_use]
 pub fn summary(told: &Told<'_>, verbose: bool) -> String {
-    let Told { scene, world, report, meetings } = *told;
-    let mut text = format!("{}\n", styled(HEADING, &report.title));
+    let Told { scene, world, outcome, meetings } = *told;
+    let mut text = format!("{}\n", styled(HEADING, &outcome.title));
     for line in world.plan().modelled() {
         if verbose || SHORT_PLAN.iter().any(|start| line.starts_with(start)) {
             text += &format!("  {}\n", styled(FAINT, &line));
@@ -41,27 +41,27 @@ pub fn summary(told: &Told<'_>, verbose: bool) -> String {
     if verbose {
         text += &format!("  {}\n", styled(FAINT, &format!("left out: {}", world.plan().left_out().join(", "))));
     }
-    text += &format!("\n{}\n{}", length(world, report), bodies(scene, world));
-    text += &format!("\n{}{}", totals(report, world), first_meetings(world, meetings, report.collisions));
-    text += &expectations(&report.expectations);
-    if let Some(books) = report.ledger.as_ref().filter(|_| verbose) {
+    text += &format!("\n{}\n{}", length(world, outcome), bodies(scene, world));
+    text += &format!("\n{}{}", totals(outcome, world), first_meetings(world, meetings, outcome.collisions));
+    text += &expectations(&outcome.expectations);
+    if let Some(books) = outcome.ledger.as_ref().filter(|_| verbose) {
         text += &format!("\n{}", ledger::whole(books, world));
     }
     if verbose {
         text += &format!("\n{}\n{}", styled(HEADING, "Counted work"), indented(&world.work().to_string()));
     }
-    text += &format!("\ndigest {}\n", report.digest);
+    text += &format!("\ndigest {}\n", outcome.digest);
     text
 }
 
-fn length(world: &World, report: &Report) -> String {
-    let made = counted(report.steps as usize, "iteration", "iterations");
-    let early = if report.steps < world.plan().steps {
+fn length(world: &World, outcome: &Outcome) -> String {
+    let made = counted(outcome.steps as usize, "iteration", "iterations");
+    let early = if outcome.steps < world.plan().steps {
         format!(", stopped before the {} asked for", world.plan().steps)
     } else {
         String::new()
     };
-    format!("{made} of {}: {} in all{early}", duration(report.time_step), duration(report.time))
+    format!("{made} of {}: {} in all{early}", duration(outcome.time_step), duration(outcome.time))
 }
 
 const COLUMNS: [(&str, Side); 9] = [
@@ -106,15 +106,15 @@ fn row(world: &World, id: BodyId) -> Vec<String> {
     row
 }
 
-fn totals(report: &Report, world: &World) -> String {
-    let [px, pz] = report.momentum.map(short);
+fn totals(outcome: &Outcome, world: &World) -> String {
+    let [px, pz] = outcome.momentum.map(short);
     format!(
         "{}\nkinetic energy {} J, momentum ({px}, {pz}) kg·m/s, angular momentum {} kg·m²/s\n{}deepest overlap {} m\n",
-        counted(report.collisions as usize, "collision", "collisions"),
-        short(report.kinetic_energy),
-        short(report.angular_momentum),
-        report.ledger.as_ref().map_or_else(String::new, |books| ledger::sentences(books, world)),
-        short(report.deepest),
+        counted(outcome.collisions as usize, "collision", "collisions"),
+        short(outcome.kinetic_energy),
+        short(outcome.angular_momentum),
+        outcome.ledger.as_ref().map_or_else(String::new, |books| ledger::sentences(books, world)),
+        short(outcome.deepest),
     )
 }
 

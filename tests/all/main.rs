@@ -7,6 +7,7 @@ mod harness;
 mod ledger;
 mod metamorphic;
 mod project;
+mod report;
 mod snapshots;
 mod support;
 mod tidy;

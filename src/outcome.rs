@@ -11,7 +11,7 @@ use crate::readings::Readings;
 ///
 /// Numbers that are not finite (an energy too large for f64) are `null` in JSON.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Report {
+pub struct Outcome {
     /// The file's stem.
     pub scenario: String,
     /// What the script calls itself, or the file's stem.
@@ -35,7 +35,7 @@ pub struct Report {
     /// 16 hexadecimal digits over every bit of the final state.
     pub digest: String,
     /// Every body, in order of creation.
-    pub bodies: Vec<BodyReport>,
+    pub bodies: Vec<BodyOutcome>,
     /// What the script expected, and whether it held.
     pub expectations: Vec<Judgement>,
     /// What changed the energy and the momenta, where it was kept account of.
@@ -47,7 +47,7 @@ pub struct Report {
 
 /// Where a body is and how it moves, in metres, seconds, radians, kilograms.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct BodyReport {
+pub struct BodyOutcome {
     /// Its name.
     pub name: String,
     /// `mobile` or `fixed`.
@@ -83,12 +83,12 @@ pub struct Judgement {
     pub numbers: Readings,
 }
 
-impl Report {
+impl Outcome {
     /// What the world of a scenario looks like at the end of its run.
     #[must_use]
     pub fn new(scenario: &Scenario, world: &World, expectations: Vec<Expectation>) -> Self {
         let [kinetic_energy, momentum_x, momentum_z, angular_momentum] = world.totals().to_array().map(positive_zero);
-        Report {
+        Outcome {
             scenario: scenario.name().to_owned(),
             title: scenario.title(),
             time_step: world.plan().time_step,
@@ -134,10 +134,10 @@ fn plainly<S: Serializer>(books: &Option<Books>, serializer: S) -> Result<S::Ok,
     }
 }
 
-fn bodies(world: &World) -> Vec<BodyReport> {
+fn bodies(world: &World) -> Vec<BodyOutcome> {
     let body = |id| {
         let (position, velocity) = (world.position(id), world.velocity(id));
-        BodyReport {
+        BodyOutcome {
             name: world.name(id).to_owned(),
             kind: world.kind(id).word(),
             x: positive_zero(position.x),

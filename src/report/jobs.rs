@@ -1,0 +1,63 @@
+//! Work shared out over all cores; answers come back in the order of the questions.
+
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
+
+use crate::progress::Progress;
+
+/// Does every job, on that many threads, and tells how far it has come.
+pub fn share<J: Sync, A: Send>(
+    jobs: &[J],
+    threads: usize,
+    what: &'static str,
+    work: impl Fn(&J) -> A + Sync,
+) -> Vec<A> {
+    let next = AtomicUsize::new(0);
+    let answers = Mutex::new(Vec::with_capacity(jobs.len()));
+    let progress = Mutex::new((Progress::of(jobs.len() as u64, what), 0));
+    thread::scope(|scope| {
+        for _ in 0..threads.clamp(1, jobs.len().max(1)) {
+            scope.spawn(|| {
+                while let Some((index, job)) =
+                    Some(next.fetch_add(1, Ordering::Relaxed)).and_then(|i| Some((i, jobs.get(i)?)))
+                {
+                    let answer = work(job);
+                    locked(&answers).push((index, answer));
+                    let (bar, done) = &mut *locked(&progress);
+                    *done += 1;
+                    bar.reached(*done);
+                }
+            });
+        }
+    });
+    let mut answers = answers.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
+    answers.sort_by_key(|(index, _)| *index);
+    answers.into_iter().map(|(_, answer)| answer).collect()
+}
+
+/// A lock whose holder died is still a lock: the thread's own panic is passed on by the scope.
+fn locked<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
+}
+
+/// As many threads as there are cores.
+#[must_use]
+pub fn cores() -> usize {
+    thread::available_parallelism().map_or(1, usize::from)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn answers_keep_the_order_of_the_questions() {
+        let jobs: Vec<u64> = (0..100).collect();
+        let squares: Vec<u64> = jobs.iter().map(|n| n * n).collect();
+        for threads in [1, 3, 200] {
+            assert_eq!(share(&jobs, threads, "jobs", |n| n * n), squares);
+        }
+        assert!(share(&Vec::<u64>::new(), 2, "jobs", |n| *n).is_empty());
+    }
+}
