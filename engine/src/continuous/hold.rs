@@ -104,18 +104,16 @@ impl Support {
     fn lacks(&self, state: &Continuous, bodies: &Bodies, span: f64) -> f64 {
         let at = |share: f64| self.gap_after(state, bodies, share * span);
         let (early, before, gap) = (at(EARLY), at(0.75), at(1.0));
-        let closes = self.is_at_face() && before > gap + 8.0 * self.tolerance && self.force.n > 0.0;
+        let closes = self.is_at_face() && before > gap + 0.01 * MARGIN * self.size && self.force.n > 0.0;
         let least = if closes { MARGIN * self.size } else { 0.0 };
         let lack = |gap: f64, least: f64, time: f64| {
             let missing = if gap < 0.5 * least - self.tolerance { least.max(2.0 * self.tolerance) - gap } else { 0.0 };
             2.0 * missing / (time * time)
         };
         let sinks = if self.is_at_face() { self.moving.pressing_by(bodies, &state.pulls) } else { 0.0 };
-        lack(gap, least, span).max(lack(early, 0.0, EARLY * span)).max(if sinks > SINKING * self.force.n {
-            sinks
-        } else {
-            0.0
-        })
+        lack(gap, least, span)
+            .max(lack(early - self.gap.min(0.0), 0.0, EARLY * span))
+            .max(if sinks > SINKING * self.force.n { sinks } else { 0.0 })
     }
 
     /// Lets the force act where the contact is in the middle of the span, along the normal there, its arms counted from where the
@@ -154,6 +152,12 @@ impl Support {
     fn hop(&self, state: &Continuous, bodies: &Bodies, span: f64) -> f64 {
         let at = |share: f64| self.gap_after(state, bodies, share * span);
         at(2.0 / 3.0).max(at(1.0)) - self.gap.max(0.0)
+    }
+
+    /// The acceleration that leads it to its face in two spans, and to rest there: g and u T turn into g/2 + u T/4 and −g − u T/2, and
+    /// those into nothing.
+    fn approach_rest(&self, span: f64) -> f64 {
+        -(1.5 * self.moving.u.n * span + self.gap.max(0.0)) / (span * span)
     }
 
     /// What it asks of the forces over a span: that the gap be closed at its end and no more, and that slip cease.
@@ -275,7 +279,7 @@ fn plan(state: &mut Continuous, bodies: &mut Bodies, supports: &mut [Support], m
     let mut span = left;
     for _ in 0..SHORTENINGS {
         for support in supports.iter_mut() {
-            support.ask = -2.0 * (0.5 * support.gap.max(0.0) + support.moving.u.n * span) / (span * span);
+            support.ask = support.approach_rest(span);
         }
         push(state, bodies, supports, movers, span);
         if supports.iter().any(|s| s.slip_end().is_some_and(|end| end < ENDED * left)) {

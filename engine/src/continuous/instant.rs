@@ -34,6 +34,7 @@ impl Continuous {
             self.treat_group(world, group);
             rest_of = others;
         }
+        self.hold_struck(world);
         self.untold.reverse();
     }
 
