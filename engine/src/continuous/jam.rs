@@ -14,10 +14,10 @@ use crate::exchange::together;
 use crate::world::World;
 
 /// How often a body may be hit at one instant before it is taken to be jammed: enough for a pile that settles, and finite.
-const MOST_AT_ONE_INSTANT: u32 = 500;
+const MOST_AT_ONE_INSTANT: u32 = 200;
 
 /// How often jams are resolved in a segment before a pair counts as stuck.
-const MOST_JAMS: u32 = 32;
+const MOST_JAMS: u32 = 8;
 
 /// A touch at less than this share of the speeds at which the two pass each other is no progress.
 const CREEPING: f64 = 1e-6;

@@ -58,7 +58,7 @@ pub struct Impulse {
 
 /// Rounds of improvement at most. Each point of two equal bodies gains a digit in about two; what a great ratio of masses
 /// leaves undone is still an approach, and so the next impact at the same instant.
-const MOST_ROUNDS: u32 = 4000;
+const MOST_ROUNDS: u32 = 400;
 
 /// An improvement below this share of the approach is rounding.
 const SETTLED: f64 = 2e-17;
@@ -67,7 +67,7 @@ const SETTLED: f64 = 2e-17;
 const REFINEMENTS: u32 = 3;
 
 /// Halvings of e when the impacts would create energy.
-const HALVINGS: u32 = 40;
+const HALVINGS: u32 = 12;
 
 /// Friction that drags leaves at least this share of the normal response: more, and pushing would draw the bodies together
 /// (Painlevé's paradox).
