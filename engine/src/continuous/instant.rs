@@ -8,7 +8,7 @@ use super::forecast::Pair;
 use super::{Continuous, lasting};
 use crate::area::Rect;
 use crate::bodies::{Bodies, Motion};
-use crate::detect::manifold::{Manifold, Placed};
+use crate::detect::manifold::{Manifold, Placed, Point};
 use crate::detect::{Contact, touch};
 use crate::exchange::document::{self, Losses};
 use crate::exchange::{PairKind, impulse, together};
@@ -253,8 +253,19 @@ fn rect(bodies: &Bodies, body: u32, rect: u32) -> Rect {
 pub(super) fn manifold_of(bodies: &Bodies, pair: &Pair, detection: Detection) -> Manifold {
     match detection {
         Detection::Complete => whole(bodies, pair),
-        Detection::Vertices => Manifold::from(first_vertex(bodies, pair)),
+        Detection::Vertices => first_coming_vertex(bodies, pair),
     }
+}
+
+/// The first vertex that comes, of a flat landing's two: the first one may have been struck at this instant already.
+fn first_coming_vertex(bodies: &Bodies, pair: &Pair) -> Manifold {
+    let first = Manifold::from(first_vertex(bodies, pair));
+    let comes = |manifold: &Manifold| {
+        lasting::points(bodies, manifold).iter().any(|p| impulse::approaches(bodies, p.i, p.j, &p.arms, p.n))
+    };
+    let whole = whole(bodies, pair);
+    let alone = |point: &Point| Manifold::new(whole.owner, whole.reference, whole.face, 0.0, [*point, *point], 1);
+    if comes(&first) { first } else { whole.points().iter().map(alone).find(comes).unwrap_or(first) }
 }
 
 fn contact_of(bodies: &Bodies, pair: &Pair, detection: Detection) -> Contact {

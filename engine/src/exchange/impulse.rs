@@ -113,7 +113,7 @@ pub(crate) fn relative_velocity(bodies: &Bodies, i: usize, j: usize, at: &Arms) 
 }
 
 /// Whether j comes at i along n at a point, faster than what rounding leaves of the speeds involved.
-pub(super) fn approaches(bodies: &Bodies, i: usize, j: usize, at: &Arms, n: Vec2) -> bool {
+pub(crate) fn approaches(bodies: &Bodies, i: usize, j: usize, at: &Arms, n: Vec2) -> bool {
     let of = |body: usize, r: Vec2| bodies.motion[body].v.norm() + bodies.motion[body].omega.abs() * r.norm();
     relative_velocity(bodies, i, j, at).dot(&n) < -STILL * (of(i, at.r_i) + of(j, at.r_j))
 }
