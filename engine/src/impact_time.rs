@@ -243,7 +243,8 @@ impl<'a> Search<'a> {
             // A vertex that lies at the face and leaves it may come back: it is followed down to the tolerance below.
             let room = q.max(self.tolerance);
             let mut sure = first_root(room, rate, bend);
-            if sure < CLOSE * left {
+            // Only what bends the way makes it short: a vertex that is on its way there gets there.
+            if sure < CLOSE * left && room + rate * CLOSE * left > 0.0 {
                 sure = sure.max(self.with_curvature(now, by, k, (room, rate), left));
             }
             step = step.min(sure);

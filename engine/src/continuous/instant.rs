@@ -27,6 +27,7 @@ impl Continuous {
             self.bring(world, pair.b as usize);
         }
         self.keep_time(world);
+        self.bounced.clear();
         let mut rest_of = touches;
         while !rest_of.is_empty() {
             let connected = bring_together(&world.bodies, rest_of);
@@ -111,7 +112,13 @@ impl Continuous {
     fn strike(&mut self, world: &mut World, group: &[Pair]) {
         let manifolds: Vec<Manifold> =
             group.iter().map(|pair| manifold_of(&world.bodies, pair, world.plan.detection)).collect();
-        let softened = lasting::soften(self, &world.bodies, &manifolds);
+        let softened = lasting::soften(self, &world.bodies, group, &manifolds);
+        if !softened
+            && let [pair] = group
+            && lasting::bounces(self, &world.bodies, pair)
+        {
+            self.bounced.push(pair.key());
+        }
         let held = self.held_with(world, group);
         let acted = match (&manifolds[..], softened) {
             ([manifold], false) if held.is_empty() => world.act(manifold).is_some(),

@@ -8,7 +8,7 @@ use super::Continuous;
 use super::forecast::Pair;
 use super::hold::{self, After};
 use super::settle::Held;
-use crate::area::Vec2;
+use crate::area::{Rect, Vec2};
 use crate::bodies::Bodies;
 use crate::detect::manifold::{Manifold, Placed};
 use crate::detect::touch;
@@ -110,19 +110,37 @@ fn would_rest(
     pressing > 0.0 && points.iter().all(|p| speed(p) * speed(p) < low)
 }
 
+/// Whether a pair that touches with a speed would certainly bounce higher than rest: by a bound on what can press it.
+pub(super) fn bounces(state: &Continuous, bodies: &Bodies, pair: &Pair) -> bool {
+    let (a, b) = (pair.a as usize, pair.b as usize);
+    let passing = (bodies.motion[a].v - bodies.motion[b].v).norm();
+    let turning = |body: usize| bodies.motion[body].omega.abs();
+    let reach = |body: usize| bodies.rects_of(body).iter().map(Rect::far).fold(0.0, f64::max);
+    let (w_a, w_b, r_a, r_b) = (turning(a), turning(b), reach(a), reach(b));
+    let pulled = |body: usize, r: f64| {
+        let path = Path::of(bodies, &state.pulls, body);
+        path.acceleration().norm() + path.angular_acceleration().abs() * r
+    };
+    let bent = w_a * w_a * r_a + w_b * w_b * r_b + 2.0 * (w_a + w_b) * (passing + w_a * r_a + w_b * r_b);
+    let pressing = pulled(a, r_a) + pulled(b, r_b) + bent;
+    let back = pair.touch.speed * Surface::of_pair(bodies.surface[a], bodies.surface[b]).restitution;
+    back * back > 2.0 * pressing * REST_HEIGHT * smallest(bodies, a).min(smallest(bodies, b))
+}
+
 /// Whether the impacts of an instant are to be without restitution: none would bounce as high as rest.
-pub(super) fn soften(state: &Continuous, bodies: &Bodies, manifolds: &[Manifold]) -> bool {
-    manifolds.iter().all(|manifold| {
-        let size = smallest(bodies, manifold.reference).min(smallest(bodies, manifold.owner));
-        let back = |p: &Moving| if p.u.n < 0.0 { p.u.n * p.point.surface.restitution } else { p.u.n };
-        would_rest(state, bodies, &Moving::all(bodies, manifold), size, back)
-    })
+pub(super) fn soften(state: &Continuous, bodies: &Bodies, group: &[Pair], manifolds: &[Manifold]) -> bool {
+    !group.iter().any(|pair| bounces(state, bodies, pair))
+        && manifolds.iter().all(|manifold| {
+            let size = smallest(bodies, manifold.reference).min(smallest(bodies, manifold.owner));
+            let back = |p: &Moving| if p.u.n < 0.0 { p.u.n * p.point.surface.restitution } else { p.u.n };
+            would_rest(state, bodies, &Moving::all(bodies, manifold), size, back)
+        })
 }
 
 impl Continuous {
     /// Two rectangles have been seen to touch, or nearly so: whether their contact lasts is to be looked at.
     pub(super) fn suspect(&mut self, key: Key) {
-        if self.holds_lasting && self.lasting.binary_search(&key).is_err() {
+        if self.holds_lasting && !self.bounced.contains(&key) && self.lasting.binary_search(&key).is_err() {
             self.close.push(key);
         }
     }
@@ -237,6 +255,9 @@ pub(super) fn standing(bodies: &Bodies, key: Key, apart: f64) -> Option<(Manifol
 
 /// The contacts, gathered by the mobile bodies that tie them together; in order.
 fn clusters(lasting: &[Key], bodies: &Bodies) -> Vec<Vec<Key>> {
+    if lasting.is_empty() {
+        return Vec::new();
+    }
     let mut root: Vec<u32> = (0..bodies.len() as u32).collect();
     let find = |root: &mut Vec<u32>, mut body: u32| {
         while root[body as usize] != body {

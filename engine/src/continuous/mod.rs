@@ -44,6 +44,9 @@ use settle::Held;
 /// more often; measured on a gas (`cargo bench --bench gas`).
 const REACH: f64 = 0.5;
 
+/// For so many iterations speeds in the middle are good enough: they only decide how an iteration is cut.
+const FRESH_FOR: u64 = 16;
+
 /// Segments of an iteration at most: beyond this, memory for what is foreseen is the cheaper of the two.
 const MOST_SEGMENTS: u32 = 4096;
 
@@ -77,6 +80,8 @@ pub(crate) struct Continuous {
     /// Contacts that last, in order; those that may begin to; and the bodies in them that were struck.
     lasting: Vec<Key>,
     close: Vec<Key>,
+    /// Those that have bounced just now: their contact does not last.
+    bounced: Vec<Key>,
     struck: Vec<u32>,
     /// Hits not told yet, the next one last.
     untold: Vec<Hit>,
@@ -128,6 +133,7 @@ impl Continuous {
             holds_lasting,
             lasting: Vec::new(),
             close: Vec::new(),
+            bounced: Vec::new(),
             struck: Vec::new(),
             untold: Vec::new(),
             hit_at: vec![(f64::NEG_INFINITY, 0); count],
@@ -152,7 +158,8 @@ impl Continuous {
     pub(crate) fn words(&self) -> impl Iterator<Item = u64> {
         let word = |a: &u32, b: &u32| u64::from(*a) << 32 | u64::from(*b);
         let lasting = self.lasting.iter().flat_map(move |(a, b, k, l)| [word(a, b), word(k, l)]);
-        self.stuck.iter().map(move |(a, b)| word(a, b)).chain(lasting)
+        let cut = core::iter::once(u64::from(self.segment.1));
+        self.stuck.iter().map(move |(a, b)| word(a, b)).chain(lasting).chain(cut)
     }
 
     /// How a body flies from now on.
@@ -280,6 +287,9 @@ impl Continuous {
     /// How many segments this iteration is cut into.
     fn segments(&mut self, world: &World) -> u32 {
         let Some(size) = self.middling else { return 1 };
+        if !world.iteration.is_multiple_of(FRESH_FOR) {
+            return self.segment.1;
+        }
         let speeds = &mut self.scratch.speeds;
         speeds.clear();
         speeds.extend(world.movers.mobile.iter().map(|body| {
