@@ -1,9 +1,10 @@
 //! Holding what is in lasting contact: constant forces over a span of time, such that nothing goes into anything.
 //!
-//! At every point of contact the gap at the end of the span is to be no less than nothing:
+//! Every point of contact asks for an acceleration that leads it to its face and to rest there, and forces f push it no more than
+//! that takes:
 //!
 //! ```text
-//! g(T) = g + u_n T + ½ (a_n + drift) T²  ≥  0,      f ≥ 0,   f > 0 only where g(T) = 0
+//! a_n + drift ≥ ask,   f ≥ 0,   f > 0 only where it is just so;       g(T) ≥ 0,   g the gap, T the span
 //! ```
 //!
 //! linear in the forces f, so that it is the problem that simultaneous impacts pose, for accelerations in place of
@@ -48,7 +49,7 @@ const SHOTS: u32 = 8;
 /// Where in a span a gap is looked at for having closed at once [share of the span].
 const EARLY: f64 = 0.25;
 
-/// A point at its face sinks when it accelerates inwards by more than this share of what holds it.
+/// A point at its face sinks when it accelerates inwards by more than this share of what acts there.
 const SINKING: f64 = 1e-13;
 
 /// Arms that differ by less are the same [share of their length].
@@ -84,7 +85,7 @@ struct Support {
     ask: f64,
     /// Whether slip counts as ended.
     sticks: bool,
-    /// The force that came out, over the masses it moves, and the acceleration there \[m/s²\].
+    /// The force that came out \[N\], and the acceleration there \[m/s²\].
     force: Impulse,
     acceleration: Impulse,
 }
@@ -113,7 +114,7 @@ impl Support {
         let sinks = if self.is_at_face() { self.moving.pressing_by(bodies, &state.pulls) } else { 0.0 };
         lack(gap, least, span)
             .max(lack(early - self.gap.min(0.0), 0.0, EARLY * span))
-            .max(if sinks > SINKING * self.force.n { sinks } else { 0.0 })
+            .max(if sinks > SINKING * self.moving.strength(state, bodies) { sinks } else { 0.0 })
     }
 
     /// Lets the force act where the contact is in the middle of the span, along the normal there, its arms counted from where the
@@ -160,7 +161,7 @@ impl Support {
         -(1.5 * self.moving.u.n * span + self.gap.max(0.0)) / (span * span)
     }
 
-    /// What it asks of the forces over a span: that the gap be closed at its end and no more, and that slip cease.
+    /// What it asks of the forces over a span: the acceleration it wants along the normal, and that slip cease.
     fn demand(&self, span: f64) -> Demand {
         let Moving { point, u, drift } = self.moving;
         let friction = point.surface.friction;
