@@ -11,6 +11,7 @@ use choque::report::recipe::Recipe;
 use choque::report::study::{Build, Study};
 use choque::report::{jobs, method, picture, told};
 use choque_engine::scene::{Detection, MotionRule};
+use choque_scripting::{Options, Scenario};
 
 use crate::Effort;
 use crate::page::{self, Parts, table};
@@ -25,6 +26,9 @@ const MAIN: [&str; 6] = [
     "walls/swing_gate",
 ];
 
+/// A scene that takes longer than this is left out: with the shortest time step it would run for hours \[s\].
+const LONGEST: f64 = 12.0;
+
 /// Isolated collisions: the names of their scenarios begin so.
 const ISOLATED: [&str; 3] = ["c1_", "c2_", "e"];
 
@@ -34,12 +38,15 @@ pub(crate) fn root() -> &'static Path {
 
 /// Studies everything.
 pub(crate) fn parts(effort: Effort, pictures: &Path) -> Result<Parts, Box<dyn Error>> {
-    let hard = studies(&files("hard")?, effort)?;
+    let mut files = files("hard")?;
+    let long = set_long_aside(&mut files)?;
+    let hard = studies(&files, effort)?;
     let main: Vec<PathBuf> = MAIN.iter().map(|name| root().join(format!("scenarios/{name}.rhai"))).collect();
     let main = studies(&main, effort)?;
     let mut parts = Parts::new();
     parts.insert("machine".to_owned(), machine());
-    parts.insert("hard".to_owned(), told_all(&hard, pictures)?);
+    let left_out = format!("Left out, for they take longer than {LONGEST} s: {}.", long.join(", "));
+    parts.insert("hard".to_owned(), format!("{left_out}\n\n{}", told_all(&hard, pictures)?));
     parts.insert("main".to_owned(), told_all(&main, pictures)?);
     parts.insert("claim".to_owned(), claim(&hard));
     Ok(parts)
@@ -51,6 +58,20 @@ fn files(folder: &str) -> Result<Vec<PathBuf>, Box<dyn Error>> {
     files.retain(|file| file.extension().is_some_and(|extension| extension == "rhai"));
     files.sort();
     Ok(files)
+}
+
+/// Keeps the files of scenes that do not take too long; gives the names of the others.
+fn set_long_aside(files: &mut Vec<PathBuf>) -> Result<Vec<String>, Box<dyn Error>> {
+    let mut long = Vec::new();
+    for file in core::mem::take(files) {
+        let scenario = Scenario::load(&file, &Options::default())?;
+        let settings = &scenario.scene().settings;
+        match settings.time_step * settings.steps as f64 {
+            time if time > LONGEST => long.push(format!("`{}`", scenario.name())),
+            _ => files.push(file),
+        }
+    }
+    Ok(long)
 }
 
 fn studies(files: &[PathBuf], effort: Effort) -> Result<Vec<Study>, Box<dyn Error>> {
