@@ -2,7 +2,7 @@
 //!
 //! What they had when the ledger was begun and all that was booked since make up what they have:
 //! `initial + Σ booked = final`, to rounding. Free flight changes nothing and is not booked. What a body changes is known in
-//! twice the precision ([`wide`]); the causes have their parts of it, and what rounding leaves between them and the whole
+//! twice the precision (`wide.rs`); the causes have their parts of it, and what rounding leaves between them and the whole
 //! is booked too.
 //!
 //! A world keeps no ledger unless asked to ([`World::keep_ledger`]); it decides nothing, so results are the same
