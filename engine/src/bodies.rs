@@ -80,6 +80,18 @@ impl Bodies {
         &self.rects[self.first_rect[body] as usize..self.first_rect[body + 1] as usize]
     }
 
+    /// Half the least size of any of a body's rectangles \[m\]; infinite where it has none.
+    #[must_use]
+    pub fn smallest_half(&self, body: usize) -> f64 {
+        self.rects_of(body).iter().map(|rect| rect.half().min()).fold(f64::INFINITY, f64::min)
+    }
+
+    /// A quick bound on how far a body's rectangles reach from its centre \[m\].
+    #[must_use]
+    pub fn reach(&self, body: usize) -> f64 {
+        self.rects_of(body).iter().map(Rect::far).fold(0.0, f64::max)
+    }
+
     /// Whether the body may be moved by collisions.
     #[inline]
     #[must_use]

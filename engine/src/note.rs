@@ -139,8 +139,7 @@ fn starts_overlapped(world: &World) -> Vec<Note> {
 
 /// Less than this is a touch that rounding has made an overlap \[m\].
 fn touching(world: &World, body: usize) -> f64 {
-    let smallest = world.bodies.rects_of(body).iter().map(|rect| rect.half().min()).fold(f64::INFINITY, f64::min);
-    1e-9 * smallest
+    1e-9 * world.bodies.smallest_half(body)
 }
 
 fn overlap_note(world: &World, i: usize, j: usize, depth: f64) -> Note {

@@ -4,7 +4,6 @@ use super::Continuous;
 use super::forecast::{Pair, What};
 use super::lasting::{BAND, Key};
 use super::neighbours::Bounds;
-use crate::area::Rect;
 use crate::bodies::{Bodies, Role};
 use crate::broad_phase::bounds::sweep;
 use crate::detect::manifold::Placed;
@@ -90,8 +89,7 @@ impl Continuous {
 
     /// Looks again at a stuck pair when it can have parted at the earliest, or after a while.
     fn watch_parting(&mut self, bodies: &Bodies, (i, one): (usize, &Path), (j, two): (usize, &Path), left: f64) {
-        let far = |body: usize| bodies.rects_of(body).iter().map(Rect::far).fold(0.0, f64::max);
-        let (mut deepest, parting) = (0.0_f64, one.closing(two, far(i), far(j), left));
+        let (mut deepest, parting) = (0.0_f64, one.closing(two, bodies.reach(i), bodies.reach(j), left));
         for rect_i in bodies.rects_of(i) {
             for rect_j in bodies.rects_of(j) {
                 deepest = deepest.max(overlap::depth(&one.frame, rect_i, &two.frame, rect_j));
@@ -204,6 +202,5 @@ impl Continuous {
 
 /// Whether a stuck pair is one still: it overlaps, or stands at the other's face.
 pub(super) fn holds_together(bodies: &Bodies, i: usize, j: usize) -> bool {
-    let smallest = |body: usize| bodies.rects_of(body).iter().map(|r| r.half().min()).fold(f64::INFINITY, f64::min);
-    overlap::between(bodies, i, j) > OVERLAPPED * smallest(i).min(smallest(j))
+    overlap::between(bodies, i, j) > OVERLAPPED * bodies.smallest_half(i).min(bodies.smallest_half(j))
 }

@@ -112,11 +112,9 @@ impl Continuous {
     fn strike(&mut self, world: &mut World, group: &[Pair]) {
         let manifolds: Vec<Manifold> =
             group.iter().map(|pair| manifold_of(&world.bodies, pair, world.plan.detection)).collect();
-        let softened = lasting::soften(self, &world.bodies, group, &manifolds);
-        if !softened
-            && let [pair] = group
-            && lasting::bounces(self, &world.bodies, pair)
-        {
+        let bounces = group.iter().any(|pair| lasting::bounces(self, &world.bodies, pair));
+        let softened = !bounces && lasting::soften(self, &world.bodies, &manifolds);
+        if let ([pair], true) = (group, bounces) {
             self.bounced.push(pair.key());
         }
         let held = self.held_with(world, group);
@@ -133,8 +131,8 @@ impl Continuous {
                     }
                     return;
                 }
-                let mut points: Vec<together::Point> =
-                    manifolds.iter().flat_map(|m| points(&world.bodies, m, softened)).collect();
+                let of = if softened { lasting::soft_points } else { lasting::points };
+                let mut points: Vec<together::Point> = manifolds.iter().flat_map(|m| of(&world.bodies, m)).collect();
                 let told = points.len();
                 points.extend(held);
                 world.act_together(&points, told)
@@ -181,15 +179,6 @@ impl Continuous {
         let point = point + world.plan.origin;
         self.untold.push(Hit { iteration: world.iteration, a, b, point, normal, depth: 0.0, kind });
     }
-}
-
-/// The points of a manifold for the common solver; `softened`, without restitution.
-fn points(bodies: &Bodies, manifold: &Manifold, softened: bool) -> Vec<together::Point> {
-    let mut points = lasting::points(bodies, manifold);
-    if softened {
-        points.iter_mut().for_each(|point| point.surface.restitution = 0.0);
-    }
-    points
 }
 
 /// Moves the touches that share mobile bodies with the first one, directly or through others, to the front, in order; gives

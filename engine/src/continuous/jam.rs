@@ -8,7 +8,6 @@
 use super::Continuous;
 use super::forecast::Pair;
 use super::lasting::{self, BAND, standing};
-use crate::area::Rect;
 use crate::bodies::Bodies;
 use crate::exchange::together;
 use crate::world::World;
@@ -23,10 +22,7 @@ const MOST_JAMS: u32 = 8;
 const CREEPING: f64 = 1e-6;
 
 fn creeps(bodies: &Bodies, pair: &Pair) -> bool {
-    let turning = |body: u32| {
-        let rects = bodies.rects_of(body as usize);
-        bodies.motion[body as usize].omega.abs() * rects.iter().map(Rect::far).fold(0.0, f64::max)
-    };
+    let turning = |body: u32| bodies.motion[body as usize].omega.abs() * bodies.reach(body as usize);
     let passing = (bodies.motion[pair.a as usize].v - bodies.motion[pair.b as usize].v).norm();
     pair.touch.speed < CREEPING * (passing + turning(pair.a) + turning(pair.b))
 }
@@ -92,8 +88,5 @@ fn closed_points(bodies: &Bodies, a: u32, b: u32) -> Vec<together::Point> {
     let count = |body: u32| bodies.rects_of(body as usize).len() as u32;
     let keys = (0..count(a)).flat_map(|k| (0..count(b)).map(move |l| (a, b, k, l)));
     let standing = keys.filter_map(|key| standing(bodies, key, BAND));
-    let mut points: Vec<together::Point> =
-        standing.flat_map(|(manifold, _)| lasting::points(bodies, &manifold)).collect();
-    points.iter_mut().for_each(|point| point.surface.restitution = 0.0);
-    points
+    standing.flat_map(|(manifold, _)| lasting::soft_points(bodies, &manifold)).collect()
 }

@@ -8,7 +8,7 @@ use super::Continuous;
 use super::forecast::Pair;
 use super::hold::{self, After};
 use super::settle::Held;
-use crate::area::{Rect, Vec2};
+use crate::area::Vec2;
 use crate::bodies::Bodies;
 use crate::detect::manifold::{Manifold, Placed};
 use crate::detect::touch;
@@ -93,6 +93,13 @@ pub(super) fn points(bodies: &Bodies, manifold: &Manifold) -> Vec<together::Poin
     manifold.points().iter().map(point).collect()
 }
 
+/// The same without restitution.
+pub(super) fn soft_points(bodies: &Bodies, manifold: &Manifold) -> Vec<together::Point> {
+    let mut points = points(bodies, manifold);
+    points.iter_mut().for_each(|point| point.surface.restitution = 0.0);
+    points
+}
+
 fn split(v: Vec2, n: Vec2) -> Impulse {
     Impulse { n: v.dot(&n), t: v.dot(&-perp(n)) }
 }
@@ -115,8 +122,7 @@ pub(super) fn bounces(state: &Continuous, bodies: &Bodies, pair: &Pair) -> bool 
     let (a, b) = (pair.a as usize, pair.b as usize);
     let passing = (bodies.motion[a].v - bodies.motion[b].v).norm();
     let turning = |body: usize| bodies.motion[body].omega.abs();
-    let reach = |body: usize| bodies.rects_of(body).iter().map(Rect::far).fold(0.0, f64::max);
-    let (w_a, w_b, r_a, r_b) = (turning(a), turning(b), reach(a), reach(b));
+    let (w_a, w_b, r_a, r_b) = (turning(a), turning(b), bodies.reach(a), bodies.reach(b));
     let pulled = |body: usize, r: f64| {
         let path = Path::of(bodies, &state.pulls, body);
         path.acceleration().norm() + path.angular_acceleration().abs() * r
@@ -124,17 +130,16 @@ pub(super) fn bounces(state: &Continuous, bodies: &Bodies, pair: &Pair) -> bool 
     let bent = w_a * w_a * r_a + w_b * w_b * r_b + 2.0 * (w_a + w_b) * (passing + w_a * r_a + w_b * r_b);
     let pressing = pulled(a, r_a) + pulled(b, r_b) + bent;
     let back = pair.touch.speed * Surface::of_pair(bodies.surface[a], bodies.surface[b]).restitution;
-    back * back > 2.0 * pressing * REST_HEIGHT * smallest(bodies, a).min(smallest(bodies, b))
+    back * back > 2.0 * pressing * REST_HEIGHT * bodies.smallest_half(a).min(bodies.smallest_half(b))
 }
 
 /// Whether the impacts of an instant are to be without restitution: none would bounce as high as rest.
-pub(super) fn soften(state: &Continuous, bodies: &Bodies, group: &[Pair], manifolds: &[Manifold]) -> bool {
-    !group.iter().any(|pair| bounces(state, bodies, pair))
-        && manifolds.iter().all(|manifold| {
-            let size = smallest(bodies, manifold.reference).min(smallest(bodies, manifold.owner));
-            let back = |p: &Moving| if p.u.n < 0.0 { p.u.n * p.point.surface.restitution } else { p.u.n };
-            would_rest(state, bodies, &Moving::all(bodies, manifold), size, back)
-        })
+pub(super) fn soften(state: &Continuous, bodies: &Bodies, manifolds: &[Manifold]) -> bool {
+    manifolds.iter().all(|manifold| {
+        let size = bodies.smallest_half(manifold.reference).min(bodies.smallest_half(manifold.owner));
+        let back = |p: &Moving| if p.u.n < 0.0 { p.u.n * p.point.surface.restitution } else { p.u.n };
+        would_rest(state, bodies, &Moving::all(bodies, manifold), size, back)
+    })
 }
 
 impl Continuous {
@@ -275,8 +280,4 @@ fn clusters(lasting: &[Key], bodies: &Bodies) -> Vec<Vec<Key>> {
         lasting.iter().map(|key| (find(&mut root, if mobile(key.0) { key.0 } else { key.1 }), *key)).collect();
     rooted.sort_unstable();
     rooted.chunk_by(|a, b| a.0 == b.0).map(|chunk| chunk.iter().map(|(_, key)| *key).collect()).collect()
-}
-
-fn smallest(bodies: &Bodies, body: usize) -> f64 {
-    bodies.rects_of(body).iter().map(|rect| rect.half().min()).fold(f64::INFINITY, f64::min)
 }
