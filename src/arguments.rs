@@ -19,6 +19,9 @@ pub struct ScenarioArguments {
     /// Length of one iteration [s]: 0.01 or 1/120
     #[arg(long, value_name = "DT", value_parser = number, allow_negative_numbers = true)]
     time_step: Option<f64>,
+    /// In how many equal parts an iteration solves contacts, with stepped impulses
+    #[arg(long, value_name = "N", value_parser = substeps, allow_negative_numbers = true)]
+    substeps: Option<u32>,
     /// Value of a `param`, or of mu_l, mu_a, epsilon, restitution, friction; may be given several times
     #[arg(long, value_name = "NAME=VALUE", value_parser = assignment)]
     set: Vec<(String, f64)>,
@@ -49,6 +52,7 @@ impl Default for ScenarioArguments {
         ScenarioArguments {
             steps: None,
             time_step: None,
+            substeps: None,
             set: Vec::new(),
             exchange: None,
             detection: None,
@@ -69,6 +73,7 @@ impl ScenarioArguments {
             overrides: Overrides {
                 steps: self.steps,
                 time_step: self.time_step,
+                substeps: self.substeps,
                 exchange: self.exchange,
                 detection: self.detection,
                 motion: self.motion,
@@ -91,6 +96,17 @@ fn choice<T: Clone + Send + Sync + 'static>(
 
 fn count(text: &str) -> Result<u64, String> {
     text.trim().parse().map_err(|_| "it must be a whole number, 0 or more".to_owned())
+}
+
+fn substeps(text: &str) -> Result<u32, String> {
+    let count = text.trim().parse().ok().and_then(|count| check::substeps("it", count).ok());
+    count.ok_or_else(|| "it must be a whole number between 1 and 1000".to_owned())
+}
+
+/// How many threads share an iteration.
+pub(crate) fn threads(text: &str) -> Result<usize, String> {
+    let threads = text.trim().parse().ok().filter(|threads| *threads > 0);
+    threads.ok_or_else(|| "it must be a whole number, 1 or more".to_owned())
 }
 
 /// A finite number, also as a quotient: `1/120`.
@@ -135,6 +151,15 @@ mod tests {
         for refused in ["push", "=3", "push=", "push=x"] {
             assert!(assignment(refused).is_err(), "{refused}");
         }
+    }
+
+    #[test]
+    fn substeps_and_threads_are_counted_from_1() {
+        assert_eq!((substeps("1000"), threads(" 2 ")), (Ok(1000), Ok(2)));
+        for refused in ["0", "-1", "2.5", "many", "", "99999999999999999999"] {
+            assert!(substeps(refused).is_err() && threads(refused).is_err(), "{refused}");
+        }
+        assert!(substeps("1001").is_err());
     }
 
     #[test]

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
 
-use crate::arguments::ScenarioArguments;
+use crate::arguments::{ScenarioArguments, threads};
 use crate::report::ReportArguments;
 use crate::run::RunArguments;
 use crate::{Error, Verdict, check, explain, export, init, report, run, terminal, words};
@@ -52,6 +52,9 @@ Examples:
     Explain {
         /// A `.rhai` script or a `.ron` scene
         file: PathBuf,
+        /// Threads that share an iteration; the result never depends on it
+        #[arg(long, value_name = "N", default_value = "1", value_parser = threads, allow_negative_numbers = true)]
+        threads: usize,
         #[command(flatten)]
         scenario: ScenarioArguments,
     },
@@ -127,7 +130,7 @@ impl Call {
         match self {
             Call::Run(arguments) => run::run(arguments),
             Call::Check { files, scenario } => check::check(files, &scenario.options()),
-            Call::Explain { file, scenario } => explain::explain(file, &scenario.options()),
+            Call::Explain { file, threads, scenario } => explain::explain(file, *threads, &scenario.options()),
             Call::Report(arguments) => report::report(arguments),
             Call::Export { file, output, scenario } => export::export(file, output.as_deref(), &scenario.options()),
             Call::Words { name, definitions } => words::words(name.as_deref(), definitions.as_deref()),

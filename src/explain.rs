@@ -16,14 +16,15 @@ const MOST_ITERATIONS: u64 = 2000;
 /// … or so much time: enough for shares that a second look confirms, short enough to wait for.
 const MOST_TIME: Duration = Duration::from_millis(500);
 
-/// Explains a scenario on standard output.
+/// Explains a scenario on standard output; trial runs share an iteration between so many threads.
 ///
 /// # Errors
 /// A scenario that cannot be loaded, or whose callbacks fail in the trial run.
-pub fn explain(file: &Path, options: &Options) -> Result<Verdict, Error> {
+pub fn explain(file: &Path, threads: usize, options: &Options) -> Result<Verdict, Error> {
     let scenario = Scenario::load(file, options)?;
-    let start = scenario.start()?.world().clone();
-    let with_callbacks = Trial::of_script(&scenario)?;
+    let mut start = scenario.start()?.world().clone();
+    start.set_threads(threads);
+    let with_callbacks = Trial::of_script(&scenario, threads)?;
     let alone = Trial::of_engine(start, with_callbacks.iterations);
     answer(&format!(
         "{}\n{}{}{}{}{}",
@@ -80,8 +81,9 @@ struct Trial {
 
 impl Trial {
     /// With callbacks, as `run` does it.
-    fn of_script(scenario: &Scenario) -> Result<Self, Error> {
+    fn of_script(scenario: &Scenario, threads: usize) -> Result<Self, Error> {
         let mut run = scenario.start()?;
+        run.set_threads(threads);
         let most = run.world().plan().steps.min(MOST_ITERATIONS);
         let since = clock::now();
         while run.world().iteration() < most && since.elapsed() < MOST_TIME {

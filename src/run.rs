@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use choque_engine::{Hit, World, note};
 use choque_scripting::Scenario;
 
-use crate::arguments::ScenarioArguments;
+use crate::arguments::{ScenarioArguments, threads};
 use crate::outcome::Outcome;
 use crate::output::rows::{self, Rows};
 use crate::output::{json, ron, text};
@@ -27,6 +27,9 @@ pub struct RunArguments {
     /// Write what each exchange changed of energy and momenta, and by what cause: a row each, as CSV
     #[arg(long, value_name = "FILE")]
     pub ledger: Option<PathBuf>,
+    /// Threads that share an iteration; the result never depends on it
+    #[arg(long, value_name = "N", default_value = "1", value_parser = threads, allow_negative_numbers = true)]
+    pub threads: usize,
     /// Overrides and folders.
     #[command(flatten)]
     pub scenario: ScenarioArguments,
@@ -57,6 +60,7 @@ pub fn run(arguments: &RunArguments) -> Result<Verdict, Error> {
     let scenario = Scenario::load(&arguments.file, &arguments.scenario.options())?;
     let mut run = scenario.start()?;
     run.keep_ledger();
+    run.set_threads(arguments.threads);
     tell_notes(&scenario, &run.world());
     let mut watcher = Watcher {
         meetings: FirstMeetings::new(MEETINGS),

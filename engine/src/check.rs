@@ -48,6 +48,12 @@ pub fn not_negative(what: &str, value: f64) -> Result<f64, BadNumber> {
     demand(value >= 0.0, what, "0 or more", value)
 }
 
+/// The count itself when an iteration may be cut into so many sub-steps: 1 … 1000.
+pub fn substeps(what: &str, count: i64) -> Result<u32, BadNumber> {
+    let allowed = u32::try_from(count).ok().filter(|count| (1..=1000).contains(count));
+    allowed.ok_or_else(|| BadNumber { what: what.to_owned(), must: "between 1 and 1000", value: count as f64 })
+}
+
 /// The number itself when it lies in 0 … 1.
 pub fn unit_range(what: &str, value: f64) -> Result<f64, BadNumber> {
     finite(what, value)?;

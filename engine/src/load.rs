@@ -9,7 +9,7 @@ use crate::error::SceneError;
 use crate::exchange::impact::Surface;
 use crate::frame::{Angle, Frame};
 use crate::prescribed::{Course, Prescription, Swing};
-use crate::scene::{Body, ExchangeRule, Kind, Part, Scene};
+use crate::scene::{Body, ExchangeRule, Kind, Part, Scene, Settings};
 
 /// Bodies and rectangles are counted by u32.
 const MOST: usize = u32::MAX as usize / 4;
@@ -225,16 +225,22 @@ pub fn bodies(scene: &Scene, origin: Vec2) -> Bodies {
         bodies.role.push(role(body));
         bodies.inertia.push(inertia(body));
         if scene.settings.exchange == ExchangeRule::Impulse {
-            bodies.surface.push(Surface {
-                restitution: body.restitution.unwrap_or(scene.settings.restitution),
-                friction: body.friction.unwrap_or(scene.settings.friction),
-            });
+            bodies.surface.push(surface(body, &scene.settings));
         }
         bodies.rects.extend(areas(body, scene.settings.plane));
         bodies.first_rect.push(bodies.rects.len() as u32);
     }
     bodies.rects.shrink_to_fit();
     bodies
+}
+
+/// A body's own restitution and friction, or else the scene's.
+#[must_use]
+pub fn surface(body: &Body, settings: &Settings) -> Surface {
+    Surface {
+        restitution: body.restitution.unwrap_or(settings.restitution),
+        friction: body.friction.unwrap_or(settings.friction),
+    }
 }
 
 fn inertia(body: &Body) -> Inertia {

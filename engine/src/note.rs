@@ -9,7 +9,7 @@ use crate::check::shown;
 use crate::detect::{self, overlap};
 use crate::load;
 use crate::plan::ExchangePlan;
-use crate::scene::{Body, Detection, Kind, MotionRule, Scene};
+use crate::scene::{Body, Detection, ExchangeRule, Kind, MotionRule, Scene, Settings};
 use crate::work::Work;
 use crate::world::{BodyId, World};
 
@@ -34,7 +34,7 @@ impl fmt::Display for Note {
 /// All notes on a scene and the world at its start, body after body.
 #[must_use]
 pub fn review(scene: &Scene, world: &World) -> Vec<Note> {
-    let mut notes = Vec::new();
+    let mut notes = without_effect(&scene.settings);
     for (about, look) in [
         ("do not cross the collision plane", misses_plane as fn(&Body, &Scene) -> Option<String>),
         ("have their rectangles' centre elsewhere", centre_elsewhere),
@@ -49,6 +49,20 @@ pub fn review(scene: &Scene, world: &World) -> Vec<Note> {
     }
     notes.extend(starts_overlapped(world));
     notes
+}
+
+/// What only the contacts of stepped impulses read.
+fn without_effect(settings: &Settings) -> Vec<Note> {
+    if settings.motion == MotionRule::Stepped && settings.exchange == ExchangeRule::Impulse {
+        return Vec::new();
+    }
+    let substeps = settings.substeps.map(|count| format!("substeps({count})"));
+    let sleeping = settings.sleeping.then(|| "sleeping(true)".to_owned());
+    let note = |word: String| Note {
+        body: None,
+        text: format!("{word} does nothing here: it is for exchange(\"impulse\") with motion(\"stepped\")"),
+    };
+    substeps.into_iter().chain(sleeping).map(note).collect()
 }
 
 fn misses_plane(body: &Body, scene: &Scene) -> Option<String> {

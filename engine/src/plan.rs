@@ -1,5 +1,7 @@
 //! The plan: what a scene needs, decided once at load; what it does not need does not run.
 
+mod contact;
+
 use core::fmt;
 
 use crate::area::Vec2;
@@ -10,6 +12,8 @@ use crate::exchange::document::Losses;
 use crate::forces::Flight;
 use crate::load;
 use crate::scene::{BroadPhaseChoice, Detection, ExchangeRule, Kind, MotionRule, Scene, Settings};
+
+pub use contact::ContactPlan;
 
 /// What is modelled, and how. `Display` prints it for people; snapshots begin with it.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,6 +28,8 @@ pub struct Plan {
     pub motion: MotionPlan,
     /// How motion is handed over.
     pub exchange: ExchangePlan,
+    /// How contacts are solved, in stepped motion with the impulse exchange.
+    pub contact: Option<ContactPlan>,
     /// How bodies fly between collisions.
     pub flight: FlightPlan,
     /// How pairs worth testing are found.
@@ -123,6 +129,7 @@ impl Plan {
                 },
                 ExchangeRule::Impulse => ExchangePlan::Impulse,
             },
+            contact: ContactPlan::resolve(scene, &census),
             flight: FlightPlan::resolve(settings, scene),
             broad_phase: BroadPhasePlan::resolve(scene, &census),
             census,
@@ -139,6 +146,7 @@ fn check_settings(settings: &Settings) -> Result<(), BadNumber> {
     check::finite("plane", settings.plane)?;
     check::unit_range("restitution", settings.restitution)?;
     check::not_negative("friction", settings.friction)?;
+    settings.substeps.map(|count| check::substeps("substeps", count.into())).transpose()?;
     check::finite("gravity: x", settings.gravity.0)?;
     check::finite("gravity: z", settings.gravity.1)?;
     check::not_negative("drag: linear", settings.drag.0)?;
@@ -243,7 +251,12 @@ impl Plan {
                     format!("exchange: document, μ_L = {mu_l}, μ_A = {mu_a}: {cases}"),
                 ]
             }
-            ExchangePlan::Impulse => vec!["exchange: impulse, restitution and friction of each pair".to_owned()],
+            ExchangePlan::Impulse => match self.contact {
+                None => vec!["exchange: impulse, restitution and friction of each pair".to_owned()],
+                Some(contact) => {
+                    vec![format!("exchange: impulse{}", contact.of_pairs()), format!("contacts: {contact}")]
+                }
+            },
         }
     }
 
@@ -259,6 +272,7 @@ impl Plan {
         };
         let nothing = self.broad_phase == BroadPhasePlan::Nothing;
         let document = !nothing && self.exchange != ExchangePlan::Impulse;
+        let contacts_lack = |of: fn(&ContactPlan) -> bool| self.contact.as_ref().is_some_and(|contact| !of(contact));
         [
             (!gravity, "gravity"),
             (!linear && !angular, "drag"),
@@ -269,6 +283,10 @@ impl Plan {
             (document && census.mobile < 2, "exchange §2.5.1"),
             (document && census.fixed_with_physics == 0, "exchange §2.5.2"),
             (document && census.fixed == 0, "exchange §2.5.3"),
+            (document, "lasting contact"),
+            (contacts_lack(|contact| contact.restitution), "restitution"),
+            (contacts_lack(|contact| contact.friction), "friction"),
+            (contacts_lack(|contact| contact.sleeping), "sleeping"),
         ]
         .into_iter()
         .filter_map(|(absent, what)| absent.then_some(what))

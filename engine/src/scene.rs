@@ -63,6 +63,13 @@ pub struct Settings {
     pub gravity: (f64, f64),
     /// Decay rates of mobile bodies' motion, (linear, angular) \[1/s\], ≥ 0.
     pub drag: (f64, f64),
+    // These two are written only where they are said: a scene without them keeps its text, and so its digest in snapshots.
+    /// Equal parts in which stepped motion with the impulse exchange solves contacts, 1 … 1000; `None` lets the plan pick.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub substeps: Option<u32>,
+    /// Whether stepped motion with the impulse exchange puts bodies at rest to sleep.
+    #[serde(skip_serializing_if = "is_default")]
+    pub sleeping: bool,
     /// How the pairs worth testing are found; the result never depends on it.
     pub broad_phase: BroadPhaseChoice,
     /// Seed of the script's generator, for the record; the engine draws no random numbers.
@@ -85,6 +92,8 @@ impl Default for Settings {
             friction: 0.0,
             gravity: (0.0, 0.0),
             drag: (0.0, 0.0),
+            substeps: None,
+            sleeping: false,
             broad_phase: BroadPhaseChoice::Auto,
             seed: 0,
         }

@@ -55,6 +55,8 @@ pub struct World {
     /// The books, once they are asked for.
     pub(crate) ledger: Option<Box<Ledger>>,
     pub(crate) directory: Directory,
+    /// Threads an iteration may be shared by, at least 1; no result depends on it.
+    threads: usize,
 }
 
 impl World {
@@ -95,6 +97,7 @@ impl World {
             fault: None,
             work: Work::default(),
             directory: Directory::new(scene),
+            threads: 1,
         })
     }
 
@@ -127,6 +130,17 @@ impl World {
     #[must_use]
     pub fn collisions(&self) -> u64 {
         self.collisions
+    }
+
+    /// Threads an iteration may be shared by: 1 unless [`set_threads`](Self::set_threads) says otherwise.
+    #[must_use]
+    pub fn threads(&self) -> usize {
+        self.threads
+    }
+
+    /// Lets an iteration be shared by up to so many threads; 0 counts as 1. Results have the same bits at any number.
+    pub fn set_threads(&mut self, threads: usize) {
+        self.threads = threads.max(1);
     }
 
     /// Counted work so far.

@@ -67,6 +67,16 @@ pub(crate) fn count(what: &str, value: &Dynamic) -> Result<u64, Complaint> {
     u64::try_from(whole).map_err(|_| Complaint::new(format!("{what} must be 0 or more, not {whole}")))
 }
 
+/// A number of sub-steps.
+pub(crate) fn substeps(what: &str, value: &Dynamic) -> Result<u32, Complaint> {
+    Ok(check::substeps(what, whole(what, value)?)?)
+}
+
+/// True or false.
+pub(crate) fn truth(what: &str, value: &Dynamic) -> Result<bool, Complaint> {
+    value.as_bool().map_err(|_| must_be(what, "true or false", value))
+}
+
 /// A string.
 pub(crate) fn text(what: &str, value: &Dynamic) -> Result<ImmutableString, Complaint> {
     value.clone().into_immutable_string().map_err(|_| must_be(what, "a string", value))

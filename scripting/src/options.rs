@@ -44,6 +44,8 @@ pub struct Overrides {
     pub steps: Option<u64>,
     /// `--time-step` \[s\], > 0.
     pub time_step: Option<f64>,
+    /// `--substeps`, 1 … 1000.
+    pub substeps: Option<u32>,
     /// `--exchange`.
     pub exchange: Option<ExchangeRule>,
     /// `--detection`.
@@ -58,6 +60,7 @@ impl Overrides {
     pub(crate) fn apply_to(&self, settings: &mut Settings) {
         settings.steps = self.steps.unwrap_or(settings.steps);
         settings.time_step = self.time_step.unwrap_or(settings.time_step);
+        settings.substeps = self.substeps.or(settings.substeps);
         settings.exchange = self.exchange.unwrap_or(settings.exchange);
         settings.detection = self.detection.or(settings.detection);
         settings.motion = self.motion.unwrap_or(settings.motion);

@@ -77,6 +77,11 @@ impl Run {
         self.world.borrow_mut().keep_ledger();
     }
 
+    /// Lets an iteration be shared by up to so many threads ([`World::set_threads`]).
+    pub fn set_threads(&mut self, threads: usize) {
+        self.world.borrow_mut().set_threads(threads);
+    }
+
     /// The exchanges of the last iteration, in order.
     #[must_use]
     pub fn hits(&self) -> &[Hit] {

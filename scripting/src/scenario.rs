@@ -131,6 +131,9 @@ fn check_options(options: &Options) -> Result<(), Diagnostic> {
     if let Some(time_step) = options.overrides.time_step {
         check::positive("--time-step", time_step).map_err(|bad| Diagnostic::new(bad.to_string()))?;
     }
+    if let Some(substeps) = options.overrides.substeps {
+        check::substeps("--substeps", substeps.into()).map_err(|bad| Diagnostic::new(bad.to_string()))?;
+    }
     match &options.library {
         Some(folder) if !folder.is_dir() => {
             Err(Diagnostic::new(format!("--library {}: there is no such folder", folder.display())))

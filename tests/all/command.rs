@@ -100,6 +100,10 @@ fn overrides_reach_a_run() {
         let again = json(folder.path(), &["run", "two.rhai", "--broad-phase", broad_phase]);
         assert_eq!(again["digest"], as_written["digest"], "{broad_phase}");
     }
+    for threads in ["1", "2", "7"] {
+        let again = json(folder.path(), &["run", "two.rhai", "--threads", threads]);
+        assert_eq!(again["digest"], as_written["digest"], "{threads} threads");
+    }
 }
 
 #[test]
@@ -115,6 +119,18 @@ fn an_exported_scene_runs_to_the_same_digest() {
     assert_eq!(stdout(&printed), fs::read_to_string(folder.path().join("two.ron")).expect("the scene"));
     let files = fs::read_dir(folder.path()).expect("the folder").count();
     assert_eq!(files, 2, "nothing is left beside the script and the scene");
+}
+
+#[test]
+fn an_exported_scene_keeps_how_contacts_are_solved() {
+    let script = "exchange(\"impulse\"); substeps(7); sleeping(true);\nmobile(\"a\").rect(1, 1);\nmobile(\"b\").rect(1, 1).at(3, 0);";
+    let folder = folder(&[("two.rhai", script)]);
+    let exported = call(folder.path(), &["export", "two.rhai", "-o", "two.ron"]);
+    assert_eq!(exported.status.code(), Some(0), "{}", stderr(&exported));
+    for file in ["two.rhai", "two.ron"] {
+        let explained = stdout(&call(folder.path(), &["explain", file]));
+        assert!(explained.contains("contacts: solved in 7 sub-steps, bodies at rest sleep"), "{file}: {explained}");
+    }
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Only what a scene needs: what is off does no work, and the plan says so.
 
-use choque_engine::plan::BroadPhasePlan;
-use choque_engine::scene::{Body, BroadPhaseChoice, Kind, Part, Scene, Settings, Swing};
+use choque_engine::plan::{BroadPhasePlan, ContactPlan};
+use choque_engine::scene::{Body, BroadPhaseChoice, ExchangeRule, Kind, MotionRule, Part, Scene, Settings, Swing};
 use choque_engine::{Extent, Plan, Vec2, Work, World};
 
 use crate::{after, body, scene};
@@ -127,8 +127,96 @@ pairs: all tested (§2.3)
 detect: vertex in rectangle (§2.3)
 relocate: least distance + ε = 0.001 m (§2.4)
 exchange: document, μ_L = 1, μ_A = 1: mobile–fixed with physics (§2.5.2)
-left out: gravity, drag, prescribed motion, compound bodies, exchange §2.5.1, exchange §2.5.3";
+left out: gravity, drag, prescribed motion, compound bodies, exchange §2.5.1, exchange §2.5.3, lasting contact";
     assert_eq!(plan.to_string(), expected);
+}
+
+fn impulses(bodies: Vec<Body>) -> Scene {
+    let settings = Settings { exchange: ExchangeRule::Impulse, ..Settings::default() };
+    Scene { settings, ..scene(bodies) }
+}
+
+/// A mobile body, a fixed one, and another that lies off the plane, with these frictions and restitutions.
+fn surfaces(friction: [f64; 3], restitution: [f64; 3]) -> ContactPlan {
+    let mut off = body("off", Kind::Mobile, 1.0, 1.0);
+    off.parts = vec![Part::Mesh(Extent { x: (-1.0, 1.0), y: (1.0, 2.0), z: (-1.0, 1.0) })];
+    let mut bodies = vec![moving("car", 0.0), body("wall", Kind::Fixed, 1.0, 1.0), off];
+    for (body, (friction, restitution)) in bodies.iter_mut().zip(friction.into_iter().zip(restitution)) {
+        (body.friction, body.restitution) = (Some(friction), Some(restitution));
+    }
+    let plan = Plan::resolve(&impulses(bodies)).expect("a valid scene");
+    plan.contact.expect("stepped impulses")
+}
+
+#[test]
+fn friction_takes_two_bodies_and_restitution_one() {
+    let needs = |friction, restitution| {
+        let contact = surfaces(friction, restitution);
+        (contact.friction, contact.restitution)
+    };
+    assert_eq!(needs([0.5, 0.5, 0.0], [0.0; 3]), (true, false));
+    assert_eq!(needs([0.5, 0.0, 0.5], [0.0; 3]), (false, false), "what is off the plane meets nothing");
+    assert_eq!(needs([0.0, 0.5, 0.5], [0.0; 3]), (false, false));
+    assert_eq!(needs([0.0; 3], [0.5, 0.0, 0.0]), (false, true));
+    assert_eq!(needs([0.0; 3], [0.0, 0.5, 0.0]), (false, true));
+    assert_eq!(needs([0.0; 3], [0.0, 0.0, 0.5]), (false, false));
+}
+
+#[test]
+fn friction_between_fixed_bodies_is_nobody_s() {
+    let mut walls = [body("a", Kind::Fixed, 1.0, 1.0), body("b", Kind::Fixed, 1.0, 1.0)];
+    walls.iter_mut().for_each(|wall| wall.friction = Some(0.5));
+    let [a, b] = walls;
+    let plan = Plan::resolve(&impulses(vec![a, b, moving("car", 9.0)])).expect("a valid scene");
+    assert!(!plan.contact.expect("stepped impulses").friction);
+}
+
+#[test]
+fn contacts_are_planned_where_impulses_meet_in_steps() {
+    let two = || impulses(vec![moving("a", 0.0), moving("b", 9.0)]);
+    let contact = |change: fn(&mut Settings)| {
+        let mut scene = two();
+        change(&mut scene.settings);
+        Plan::resolve(&scene).expect("a valid scene").contact
+    };
+    let frugal = ContactPlan { substeps: 4, friction: false, restitution: false, sleeping: false };
+    assert_eq!(contact(|_| ()), Some(frugal));
+    assert_eq!(contact(|s| s.substeps = Some(1000)), Some(ContactPlan { substeps: 1000, ..frugal }));
+    assert_eq!(contact(|s| s.sleeping = true), Some(ContactPlan { sleeping: true, ..frugal }));
+    assert_eq!(contact(|s| s.motion = MotionRule::Continuous), None);
+    assert_eq!(contact(|s| s.exchange = ExchangeRule::Document), None);
+    assert_eq!(Plan::resolve(&impulses(vec![moving("a", 0.0)])).expect("a valid scene").contact, None);
+}
+
+#[test]
+fn the_plan_tells_how_contacts_are_solved() {
+    let told = |change: fn(&mut Settings)| {
+        let mut scene = impulses(vec![moving("a", 0.0), moving("b", 9.0)]);
+        change(&mut scene.settings);
+        let plan = Plan::resolve(&scene).expect("a valid scene").to_string();
+        plan.split_once("detect: separating axes\n").expect("complete detection").1.to_owned()
+    };
+    let frugal = "exchange: impulse
+contacts: solved in 4 sub-steps
+left out: gravity, drag, prescribed motion, compound bodies, relocation, restitution, friction, sleeping";
+    assert_eq!(told(|_| ()), frugal);
+    let full = "exchange: impulse, restitution and friction of each pair
+contacts: solved in 1 sub-step, bodies at rest sleep
+left out: gravity, drag, prescribed motion, compound bodies, relocation";
+    let everything = |s: &mut Settings| {
+        (s.restitution, s.friction, s.substeps, s.sleeping) = (0.5, 0.5, Some(1), true);
+    };
+    assert_eq!(told(everything), full);
+}
+
+#[test]
+fn a_world_has_one_thread_unless_told_otherwise() {
+    let mut world = World::new(&scene(vec![moving("a", 0.0)])).expect("a valid scene");
+    assert_eq!(world.threads(), 1);
+    world.set_threads(3);
+    assert_eq!((world.threads(), world.clone().threads()), (3, 3));
+    world.set_threads(0);
+    assert_eq!(world.threads(), 1);
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! What is refused at the door, by name and value; and what stops a run.
 
-use choque_engine::scene::{Body, Kind, Part, Patrol, Scene, Settings, Swing};
+use choque_engine::scene::{Body, ExchangeRule, Kind, MotionRule, Part, Patrol, Scene, Settings, Swing};
 use choque_engine::{CommandError, Extent, Rect, Vec2, World, note};
 
 use crate::{after, body, scene};
@@ -29,6 +29,8 @@ fn settings_out_of_range_are_named_with_their_value() {
     assert_eq!(refused_setting(|s| s.mu_a = f64::INFINITY), "mu_a must be a finite number, not inf");
     assert_eq!(refused_setting(|s| s.epsilon = -1e-3), "epsilon must be 0 or more, not -0.001");
     assert_eq!(refused_setting(|s| s.restitution = 1.5), "restitution must be between 0 and 1, not 1.5");
+    assert_eq!(refused_setting(|s| s.substeps = Some(0)), "substeps must be between 1 and 1000, not 0");
+    assert_eq!(refused_setting(|s| s.substeps = Some(u32::MAX)), "substeps must be between 1 and 1000, not 4294967295");
     assert_eq!(refused_setting(|s| s.gravity.1 = f64::NAN), "gravity: z must be a finite number, not NaN");
     assert_eq!(refused_setting(|s| s.drag.0 = -1.0), "drag: linear must be 0 or more, not -1");
 }
@@ -102,6 +104,24 @@ fn a_body_that_leaves_the_finite_numbers_stops_the_run_by_name() {
     assert_eq!((fault.body.as_str(), fault.iteration), ("runaway", 3));
     world.step();
     assert_eq!(world.fault(), Some(&fault), "the first fault is kept");
+}
+
+#[test]
+fn notes_tell_of_settings_that_do_nothing() {
+    let told = |exchange, motion| {
+        let settings = Settings { substeps: Some(8), sleeping: true, exchange, motion, ..Settings::default() };
+        let scene = Scene { settings, ..scene(vec![body("a", Kind::Mobile, 1.0, 1.0)]) };
+        note::review(&scene, &after(&scene, 0)).iter().map(ToString::to_string).collect::<Vec<_>>()
+    };
+    assert!(told(ExchangeRule::Impulse, MotionRule::Stepped).is_empty());
+    for (exchange, motion) in [
+        (ExchangeRule::Document, MotionRule::Stepped),
+        (ExchangeRule::Document, MotionRule::Continuous),
+        (ExchangeRule::Impulse, MotionRule::Continuous),
+    ] {
+        let idle = "does nothing here: it is for exchange(\"impulse\") with motion(\"stepped\")";
+        assert_eq!(told(exchange, motion), [format!("substeps(8) {idle}"), format!("sleeping(true) {idle}")]);
+    }
 }
 
 /// A forgotten place in a loop: every pair overlaps, and a few lines say so.

@@ -27,6 +27,8 @@ pub(crate) type Number = Dynamic;
 pub(crate) type Text = Dynamic;
 /// A string, one of a few.
 pub(crate) type Choice = Dynamic;
+/// True or false.
+pub(crate) type Truth = Dynamic;
 /// An array.
 pub(crate) type List = Dynamic;
 /// `|world| …`

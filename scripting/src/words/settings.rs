@@ -4,7 +4,7 @@ use choque_engine::scene::{BroadPhaseChoice, Detection, ExchangeRule, MotionRule
 use rhai::plugin::*;
 use rhai::{Dynamic, ImmutableString};
 
-use super::{Choice, Number, Text};
+use super::{Choice, Number, Text, Truth};
 use crate::error::Complaint;
 use crate::number;
 use crate::session::{self, Phase, RhaiResultOf, Site};
@@ -102,6 +102,30 @@ pub(crate) mod module {
     pub fn motion(context: NativeCallContext, rule: Choice) -> RhaiResultOf<()> {
         let rule = choose("motion", &rule, MotionRule::WORDS, MotionRule::from_word);
         set(&context, rule, |settings, rule| settings.motion = rule)
+    }
+
+    /// In how many equal parts an iteration solves contacts, 1 to 1000, with `exchange("impulse")` and
+    /// `motion("stepped")`: more hold high piles and great ratios of masses better, and take longer. Default: 4.
+    ///
+    /// ```rhai
+    /// substeps(8);
+    /// ```
+    #[rhai_fn(return_raw)]
+    pub fn substeps(context: NativeCallContext, count: Number) -> RhaiResultOf<()> {
+        let count = number::substeps("substeps", &count);
+        set(&context, count, |settings, count| settings.substeps = Some(count))
+    }
+
+    /// Whether bodies that have come to rest are put to sleep until something wakes them, with `exchange("impulse")`
+    /// and `motion("stepped")`: asleep they take no time. Default: false.
+    ///
+    /// ```rhai
+    /// sleeping(true);
+    /// ```
+    #[rhai_fn(return_raw)]
+    pub fn sleeping(context: NativeCallContext, allowed: Truth) -> RhaiResultOf<()> {
+        let allowed = number::truth("sleeping", &allowed);
+        set(&context, allowed, |settings, allowed| settings.sleeping = allowed)
     }
 
     /// How the pairs worth testing are found: `"auto"` (the default), `"all_pairs"` or `"strips"`. The result is

@@ -63,6 +63,13 @@ fn a_malformed_plain_scene_is_told_with_its_line() {
     2 |     settings: (time_step: "fast"),
       |                          ^
     "#);
+    assert_snapshot!(plain_error("(settings: (substeps: Some(-4)))", &Options::default()), @r#"
+    error: not a scene: integer is out of bounds
+     --> scene.ron:1:29
+      |
+    1 | (settings: (substeps: Some(-4)))
+      |                             ^
+    "#);
     assert_snapshot!(plain_error("(title: \"x\"", &Options::default()), @r#"
     error: not a scene: expected comma
      --> scene.ron:1:10
@@ -74,6 +81,11 @@ fn a_malformed_plain_scene_is_told_with_its_line() {
 
 #[test]
 fn a_plain_scene_that_cannot_run_is_shown_where_the_body_is_named() {
+    let uncut = PLAIN.replace("steps: 4", "substeps: Some(0)");
+    assert_snapshot!(plain_error(&uncut, &Options::default()), @r#"
+    error: substeps must be between 1 and 1000, not 0
+    --> scene.ron
+    "#);
     let heavy = PLAIN.replace("velocity: Some((1, 0))", "mass: Some(-3)");
     assert_snapshot!(plain_error(&heavy, &Options::default()), @r#"
     error: body "a": mass must be greater than 0, not -3
@@ -179,6 +191,8 @@ fn a_model_that_is_none_is_told_with_its_line() {
 fn options_that_cannot_be_are_refused() {
     let overrides = Overrides { time_step: Some(0.0), ..Overrides::default() };
     assert_snapshot!(error_with("", &Options { overrides, ..Options::default() }), @"error: --time-step must be greater than 0, not 0");
+    let overrides = Overrides { substeps: Some(1001), ..Overrides::default() };
+    assert_snapshot!(error_with("", &Options { overrides, ..Options::default() }), @"error: --substeps must be between 1 and 1000, not 1001");
     assert_snapshot!(error_with("", &set(&[("mu_l", -1.0)])), @r#"
     error: --set mu_l=-1: mu_l must be 0 or more, not -1
     --> scene.rhai

@@ -5,7 +5,7 @@ use std::fs;
 use choque_scripting::words;
 
 /// The words of the contract, as one writes them.
-const CONTRACT: &str = "title time_step steps mu_l mu_a epsilon plane exchange detection motion broad_phase restitution \
+const CONTRACT: &str = "title time_step steps mu_l mu_a epsilon plane exchange detection motion substeps sleeping broad_phase restitution \
     friction gravity drag seed random random_int param deg mobile fixed rect mesh model height scale at angle velocity \
     spin patrol swing mass inertia tag on_step on_collision stop_when expect always time iteration collisions \
     kinetic_energy momentum_x momentum_z angular_momentum deepest [] body bodies tagged x z vx vz name speed kind push \

@@ -49,14 +49,16 @@ fn overrides_win_over_the_script() {
     let overrides = Overrides {
         steps: Some(3),
         time_step: Some(0.5),
+        substeps: Some(8),
         exchange: Some(ExchangeRule::Impulse),
         detection: Some(Detection::Complete),
         motion: Some(MotionRule::Continuous),
         broad_phase: Some(BroadPhaseChoice::AllPairs),
     };
     let options = Options { overrides, ..Options::default() };
-    let settings = scene_with("steps(100); time_step(1); mu_l(0.5);", &options).settings;
+    let settings = scene_with("steps(100); time_step(1); substeps(2); mu_l(0.5);", &options).settings;
     assert_eq!((settings.steps, settings.time_step, settings.mu_l), (3, 0.5, 0.5));
     assert_eq!((settings.exchange, settings.detection), (ExchangeRule::Impulse, Some(Detection::Complete)));
     assert_eq!((settings.motion, settings.broad_phase), (MotionRule::Continuous, BroadPhaseChoice::AllPairs));
+    assert_eq!(settings.substeps, Some(8));
 }

@@ -55,7 +55,7 @@ fn settings_say_what_holds_for_the_scene() {
         r#"
         time_step(0.25); steps(7); mu_l(0.5); mu_a(2); epsilon(0); plane(-1); restitution(1); friction(3);
         exchange("impulse"); detection("complete"); motion("continuous"); broad_phase("strips");
-        gravity(0, -9.81); drag(0.1, 0); seed(-4);
+        gravity(0, -9.81); drag(0.1, 0); seed(-4); substeps(8.0); sleeping(true);
         "#,
     )
     .settings;
@@ -65,6 +65,7 @@ fn settings_say_what_holds_for_the_scene() {
     assert_eq!((settings.exchange, settings.detection), (ExchangeRule::Impulse, Some(Detection::Complete)));
     assert_eq!((settings.motion, settings.broad_phase), (MotionRule::Continuous, BroadPhaseChoice::Strips));
     assert_eq!((settings.gravity, settings.drag, settings.seed), ((0.0, -9.81), (0.1, 0.0), -4));
+    assert_eq!((settings.substeps, settings.sleeping), (Some(8), true));
 }
 
 #[test]

@@ -42,6 +42,20 @@ fn a_wrong_type_names_the_argument() {
     1 | steps(1.5);
       | ^^^^^
     "#);
+    assert_snapshot!(error("sleeping(1);"), @r#"
+    error: sleeping must be true or false, not a whole number
+     --> scene.rhai:1:1
+      |
+    1 | sleeping(1);
+      | ^^^^^^^^
+    "#);
+    assert_snapshot!(error("substeps(2.5);"), @r#"
+    error: substeps must be a whole number, not 2.5
+     --> scene.rhai:1:1
+      |
+    1 | substeps(2.5);
+      | ^^^^^^^^
+    "#);
     assert_snapshot!(error("sin(\"x\");"), @r#"
     error: `sin` works on numbers, not on a string
      --> scene.rhai:1:1
@@ -53,6 +67,13 @@ fn a_wrong_type_names_the_argument() {
 
 #[test]
 fn a_number_out_of_range_names_the_argument_and_the_value() {
+    assert_snapshot!(error("steps(9);\nsubsteps(1001);"), @r#"
+    error: substeps must be between 1 and 1000, not 1001
+     --> scene.rhai:2:1
+      |
+    2 | substeps(1001);
+      | ^^^^^^^^
+    "#);
     assert_snapshot!(error("mobile(\"a\").mass(0);"), @r#"
     error: body "a": mass must be greater than 0, not 0
      --> scene.rhai:1:13
