@@ -2,7 +2,7 @@
 
 use crate::area::Vec2;
 use crate::bodies::{Bodies, Motion, Role};
-use crate::flight::turned;
+use crate::flight::{Pull, turned};
 use crate::forces::Flight;
 use crate::frame::Frame;
 use crate::plan::FlightPlan;
@@ -78,6 +78,47 @@ pub fn advance(
     work.bodies_advanced += (movers.mobile.len() + movers.fixed.len()) as u64;
     work.prescribed += movers.prescribed.len() as u64;
     lost_mobile.or(lost_fixed)
+}
+
+/// The same for bodies that nothing touches, each under what acts on it; those on a course are left out.
+pub(crate) fn advance_alone(
+    bodies: &mut Bodies,
+    movers: &Movers,
+    flight: FlightPlan,
+    dt: f64,
+    pulls: &[Pull],
+    touched: impl Fn(u32) -> bool,
+    work: &mut Work,
+) -> Option<usize> {
+    let mut lost = None;
+    let (linear, angular) = match flight {
+        FlightPlan::Free => (Flight::new(0.0, dt), Flight::new(0.0, dt)),
+        FlightPlan::Forced { linear, angular, .. } => (linear, angular),
+    };
+    for &body in &movers.mobile {
+        if touched(body) {
+            continue;
+        }
+        let i = body as usize;
+        let Motion { v, omega } = bodies.motion[i];
+        let Pull { a, alpha, .. } = if pulls.is_empty() { Pull::NONE } else { pulls[i] };
+        bodies.shift(i, v * linear.reach + a * linear.fall);
+        if omega != 0.0 || alpha != 0.0 {
+            bodies.turn(i, omega * angular.reach + alpha * angular.fall);
+        }
+        if !pulls.is_empty() {
+            let v = v * linear.keep + a * linear.reach;
+            bodies.motion[i] = Motion { v, omega: omega * angular.keep + alpha * angular.reach };
+        }
+        if !is_finite(bodies, i) {
+            lost = lost.or(Some(i));
+        }
+    }
+    work.bodies_advanced += (movers.mobile.len() + movers.fixed.len()) as u64;
+    if flight != FlightPlan::Free {
+        work.bodies_forced += movers.mobile.len() as u64;
+    }
+    lost.or(drift(bodies, &movers.fixed, dt))
 }
 
 /// `O += v·dt`, `θ += ω·dt`.

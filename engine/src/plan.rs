@@ -154,6 +154,17 @@ fn check_settings(settings: &Settings) -> Result<(), BadNumber> {
     Ok(())
 }
 
+impl Plan {
+    /// The acceleration of every mobile body \[m/s²\].
+    #[must_use]
+    pub fn gravity(&self) -> Vec2 {
+        match self.flight {
+            FlightPlan::Free => Vec2::zeros(),
+            FlightPlan::Forced { gravity, .. } => gravity,
+        }
+    }
+}
+
 impl FlightPlan {
     fn resolve(settings: &Settings, scene: &Scene) -> Self {
         let forced = settings.gravity != (0.0, 0.0) || settings.drag != (0.0, 0.0);

@@ -74,6 +74,11 @@ impl World {
             self.continuous = Some(state);
             return;
         }
+        if let Some(mut contacts) = self.contacts.take() {
+            self.begin_contacts(&mut contacts);
+            self.contacts = Some(contacts);
+            return;
+        }
         self.advance();
         self.detect();
     }
@@ -85,6 +90,9 @@ impl World {
             let hit = self.treat_next_continuous(&mut state);
             self.continuous = Some(state);
             return hit;
+        }
+        if let Some(contacts) = &mut self.contacts {
+            return contacts.next_hit();
         }
         while let Some(&(i, j)) = self.listed.get(self.treated) {
             self.treated += 1;

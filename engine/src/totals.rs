@@ -60,6 +60,9 @@ impl World {
         for word in self.continuous.iter().flat_map(|state| state.words()) {
             digest.word(word);
         }
+        for word in self.contacts.iter().flat_map(|contacts| contacts.words()) {
+            digest.word(word);
+        }
         for word in self.sides.words() {
             digest.word(word);
         }

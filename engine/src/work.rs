@@ -48,6 +48,8 @@ work! {
     touches_sought: "moments of impact sought",
     /// Pairs listed as overlapping.
     pairs_listed: "pairs listed",
+    /// Touches solved, one count per touch and sweep.
+    touches_solved: "touches solved",
     /// Relocations made.
     relocations: "relocations",
     /// Exchanges mobile–mobile (§2.5.1).

@@ -6,6 +6,7 @@ use crate::advance::Movers;
 use crate::area::Vec2;
 use crate::bodies::{Bodies, Motion};
 use crate::broad_phase::BroadPhase;
+use crate::contact::Contacts;
 use crate::continuous::Continuous;
 use crate::detect::overlap;
 use crate::detect::seams::Seams;
@@ -52,6 +53,8 @@ pub struct World {
     pub(crate) work: Work,
     /// What continuous motion keeps; a stepped world has none.
     pub(crate) continuous: Option<Box<Continuous>>,
+    /// What the contact solver keeps; only stepped motion with impulses has one.
+    pub(crate) contacts: Option<Box<Contacts>>,
     /// The books, once they are asked for.
     pub(crate) ledger: Option<Box<Ledger>>,
     pub(crate) directory: Directory,
@@ -80,8 +83,13 @@ impl World {
                 Some(Box::new(Continuous::new(middling, plan.exchange == ExchangePlan::Impulse, bodies.len())))
             }
         };
+        let contacts = plan
+            .contact
+            .filter(|_| plan.detection == Detection::Complete)
+            .map(|contact| Box::new(Contacts::new(contact, &bodies)));
         Ok(World {
             continuous,
+            contacts,
             ledger: None,
             broad_phase: BroadPhase::new(plan.broad_phase),
             plan,

@@ -26,7 +26,7 @@ use crate::work::Work;
 /// By how much a later axis must beat an earlier one, relative to the rectangles' size. Far above rounding (1e-16)
 /// and far below what can be seen: without it two squares that meet face to face would choose by rounding, and the
 /// normal could change from step to step.
-const PREFERENCE: f64 = 1e-9;
+pub(super) const PREFERENCE: f64 = 1e-9;
 
 /// The deepest overlap between rectangles of i and of j, the first of equals; `None` when no two overlap.
 /// Touching is not overlapping.
@@ -73,19 +73,24 @@ pub fn list(
 
 /// A way to part two rectangles: across a face of one of them.
 #[derive(Clone, Copy, Debug)]
-struct Way {
+pub(super) struct Way {
     /// Whether the face is one of the first rectangle.
-    of_first: bool,
-    face: Face,
+    pub(super) of_first: bool,
+    pub(super) face: Face,
     /// Overlap along the face's normal \[m\]; negative where it separates.
-    depth: f64,
+    pub(super) depth: f64,
 }
 
 impl Way {
-    /// The four ways, in the order that breaks ties; `None` when one of them separates the two.
-    fn all(i: Placed, j: Placed) -> Option<[Way; 4]> {
+    /// The four ways, in the order that breaks ties.
+    pub(super) fn each(i: Placed, j: Placed) -> [Way; 4] {
         let ([ix, iz], [jx, jz]) = (ways_across(true, i, j), ways_across(false, j, i));
-        let all = [ix, iz, jx, jz];
+        [ix, iz, jx, jz]
+    }
+
+    /// The same; `None` when one of them separates the two.
+    fn all(i: Placed, j: Placed) -> Option<[Way; 4]> {
+        let all = Way::each(i, j);
         all.iter().all(|way| way.depth > 0.0).then_some(all)
     }
 
@@ -139,7 +144,7 @@ fn between(bodies: &Bodies, i: Placed, j: Placed, came: Option<Vec2>) -> Option<
 }
 
 /// The way as it leads in the direction the two came; `None` when its axis runs across that.
-fn along(way: Way, normal: Vec2, i: Placed, j: Placed) -> Option<Way> {
+pub(super) fn along(way: Way, normal: Vec2, i: Placed, j: Placed) -> Option<Way> {
     let share = way.normal(i, j).dot(&normal);
     (share.abs() > ALONG).then(|| way.towards(way.face.is_positive() == (share > 0.0), i, j))
 }
@@ -170,11 +175,8 @@ fn manifold(reference: Placed, owner: Placed, way: Way) -> Manifold {
 
 /// The normal of the face across which two rectangles came to overlap, from the first to the second: of the axes that
 /// separated them where they stood before, the one that ceased to last. `None` when none did.
-fn entered(ways: &[Way; 4], (i, j): (Placed, Placed), (was_i, was_j): (Placed, Placed)) -> Option<Vec2> {
-    let before = {
-        let ([ix, iz], [jx, jz]) = (ways_across(true, was_i, was_j), ways_across(false, was_j, was_i));
-        [ix, iz, jx, jz]
-    };
+pub(super) fn entered(ways: &[Way; 4], (i, j): (Placed, Placed), (was_i, was_j): (Placed, Placed)) -> Option<Vec2> {
+    let before = Way::each(was_i, was_j);
     let mut latest: Option<(f64, Vec2)> = None;
     for (was, now) in before.iter().zip(ways) {
         if was.depth >= 0.0 {

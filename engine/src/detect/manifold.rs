@@ -122,6 +122,13 @@ pub fn cut_to_face(reference: Placed, owner: Placed, face: Face) -> [Point; 2] {
     })
 }
 
+/// From where to where that edge reaches along the face, uncut, in the order of its ends \[m\].
+pub(crate) fn edge_along(reference: Placed, owner: Placed, face: Face) -> (f64, f64) {
+    let seen = owner.frame.seen_from(reference.frame);
+    let [one, two] = facing_edge(owner.rect, seen.inward(face.normal())).map(|vertex| face.along(seen.place(vertex)));
+    (one.min(two), one.max(two))
+}
+
 /// The edge of a rectangle whose outward normal is most against a direction, by its two ends in R4's order round.
 fn facing_edge(rect: &Rect, against: Vec2) -> [Vec2; 2] {
     let [v0, v1, v2, v3] = rect.vertices();

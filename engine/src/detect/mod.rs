@@ -2,6 +2,7 @@
 
 pub mod complete;
 pub mod manifold;
+pub(crate) mod near;
 pub mod overlap;
 pub mod seams;
 pub mod sides;

@@ -1,0 +1,152 @@
+//! Touches in blocks of eight that share no body, ready to be solved side by side.
+//!
+//! Touches are given colours in their own order: each the first that neither of its bodies has yet. Touches of one colour share
+//! no mobile body, so it makes no difference which of them is solved first, nor how many at once, nor by which thread.
+
+use super::rows::{IDLE, Rows};
+use super::touch::{FAR, Touch};
+use crate::lanes::{Eight, LANES};
+
+/// Eight touches, a lane each.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(64))]
+pub(super) struct Block {
+    pub(super) row_a: [u32; LANES],
+    pub(super) row_b: [u32; LANES],
+    pub(super) nx: Eight,
+    pub(super) nz: Eight,
+    pub(super) lever_a: [Eight; 2],
+    pub(super) lever_b: [Eight; 2],
+    pub(super) along_a: Eight,
+    pub(super) along_b: Eight,
+    pub(super) friction: Eight,
+    pub(super) gap: [Eight; 2],
+    /// How deep the points may still be in each other at the end of the step, as −depth \[m\].
+    pub(super) least: [Eight; 2],
+    pub(super) slip_back: Eight,
+    pub(super) slip_on: Eight,
+    pub(super) push: [Eight; 2],
+    pub(super) grip: Eight,
+    /// At what speed each point is to part \[m/s\]: restitution of an impact, 0 without.
+    pub(super) part: [Eight; 2],
+}
+
+/// All blocks of a step, colour after colour.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Blocks {
+    pub(super) blocks: Vec<Block>,
+    /// Where each colour's blocks begin; one more closes the last.
+    pub(super) begins: Vec<u32>,
+    /// The block and lane of each touch.
+    pub(super) place: Vec<(u32, u8)>,
+    colour: Vec<u8>,
+    taken: Vec<u64>,
+    counts: Vec<u32>,
+    next: Vec<u32>,
+}
+
+/// Colours that touches share; a body with more touches than this has the others solved one by one.
+const SHARED: usize = 63;
+
+impl Blocks {
+    /// Lays the touches out, with the rows of their bodies.
+    pub(super) fn fill(&mut self, touches: &[Touch], of_touch: &[(u32, u32)], rows: &Rows, keep: f64, band: f64) {
+        self.colour(of_touch, rows);
+        self.begins.clear();
+        let mut begin = 0;
+        self.next.clear();
+        for (colour, count) in self.counts.iter().enumerate() {
+            self.begins.push(begin);
+            self.next.push(begin * LANES as u32);
+            begin += if colour == SHARED { *count } else { count.div_ceil(LANES as u32) };
+        }
+        self.begins.push(begin);
+        self.blocks.clear();
+        self.blocks.resize(begin as usize, Block::idle());
+        self.place.clear();
+        for ((touch, rows), colour) in touches.iter().zip(of_touch).zip(&self.colour) {
+            let at = &mut self.next[*colour as usize];
+            let (block, lane) = (*at / LANES as u32, *at as usize % LANES);
+            *at += if *colour as usize == SHARED { LANES as u32 } else { 1 };
+            self.blocks[block as usize].set(lane, touch, *rows, keep, band);
+            self.place.push((block, lane as u8));
+        }
+    }
+
+    /// Takes over the pushes of the touches.
+    pub(super) fn renew(&mut self, touches: &[Touch]) {
+        for (touch, (block, lane)) in touches.iter().zip(&self.place) {
+            let (block, lane) = (&mut self.blocks[*block as usize], *lane as usize);
+            for k in 0..2 {
+                block.push[k].0[lane] = touch.push[k];
+            }
+            block.grip.0[lane] = touch.grip;
+        }
+    }
+
+    /// Chooses each touch's colour, and counts how many have each.
+    fn colour(&mut self, of_touch: &[(u32, u32)], rows: &Rows) {
+        self.taken.clear();
+        self.taken.resize(rows.rows.len(), 0);
+        self.colour.clear();
+        self.counts.clear();
+        for &(a, b) in of_touch {
+            let free = !(self.taken[a as usize] | self.taken[b as usize]);
+            let colour = (free.trailing_zeros() as usize).min(SHARED);
+            for row in [a, b] {
+                self.taken[row as usize] |= 1 << colour;
+            }
+            if self.counts.len() <= colour {
+                self.counts.resize(colour + 1, 0);
+            }
+            self.counts[colour] += 1;
+            self.colour.push(colour as u8);
+        }
+    }
+}
+
+impl Block {
+    /// A block whose lanes all belong to nobody.
+    fn idle() -> Block {
+        let (zero, one) = (Eight::ZERO, Eight::all(1.0));
+        Block {
+            row_a: core::array::from_fn(|k| k as u32),
+            row_b: core::array::from_fn(|k| (IDLE / 2 + k) as u32),
+            nx: one,
+            nz: zero,
+            lever_a: [zero, one],
+            lever_b: [zero, one],
+            along_a: zero,
+            along_b: zero,
+            friction: zero,
+            gap: [Eight::all(FAR); 2],
+            least: [zero; 2],
+            slip_back: zero,
+            slip_on: zero,
+            push: [zero; 2],
+            grip: zero,
+            part: [zero; 2],
+        }
+    }
+
+    fn set(&mut self, lane: usize, touch: &Touch, (row_a, row_b): (u32, u32), keep: f64, band: f64) {
+        self.row_a[lane] = row_a;
+        self.row_b[lane] = row_b;
+        self.nx.0[lane] = touch.n.x;
+        self.nz.0[lane] = touch.n.y;
+        self.along_a.0[lane] = touch.along_a;
+        self.along_b.0[lane] = touch.along_b;
+        self.friction.0[lane] = touch.surface.friction;
+        self.slip_back.0[lane] = touch.slip.0;
+        self.slip_on.0[lane] = touch.slip.1;
+        self.grip.0[lane] = touch.grip;
+        for k in 0..2 {
+            self.lever_a[k].0[lane] = touch.lever_a[k];
+            self.lever_b[k].0[lane] = touch.lever_b[k];
+            let gap = if touch.gap[k].abs() <= band { 0.0 } else { touch.gap[k] };
+            self.gap[k].0[lane] = gap;
+            self.least[k].0[lane] = (gap * keep).min(0.0);
+            self.push[k].0[lane] = touch.push[k];
+        }
+    }
+}

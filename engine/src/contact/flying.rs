@@ -1,0 +1,172 @@
+//! How bodies in contact go on over a sub-step: what acts on them, and where that takes them.
+
+use super::rows::{IDLE, INVERSE_MASS, INVERSE_MOMENT, Rows, SPIN, TURN, VX, VZ, X, Z};
+use super::touch::Touch;
+use crate::area::Vec2;
+use crate::bodies::Motion;
+use crate::flight::{Path, Pull};
+use crate::forces::Flight;
+use crate::frame::Frame;
+
+/// A change of motion within a sub-step no greater than this many times what gravity would do is a force's, and acts all
+/// along; a greater one is an impact's, and acts from the start.
+const FORCEFUL: f64 = 2.0;
+
+/// What a body in contact remembers over a sub-step.
+#[derive(Clone, Copy, Debug, Default)]
+struct Flier {
+    /// Its motion when the sub-step began: vx, vz, spin.
+    start: [f64; 3],
+    /// Its motion at the end were there no contact.
+    free: [f64; 3],
+    /// How far it would come: x, z, turn.
+    way: [f64; 3],
+    /// What contact changed in the sub-step before: contacts that last do it again.
+    carried: [f64; 3],
+}
+
+/// All bodies in contact, in the order of their rows.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Fliers {
+    fliers: Vec<Flier>,
+    /// How much of the sub-step each row has used up in impacts \[s\], and which have any.
+    pub(super) spent: Vec<f64>,
+    pub(super) spenders: Vec<u32>,
+    coefficients: Option<(Flight, Flight)>,
+}
+
+impl Fliers {
+    /// A step begins: contacts push as they did at the end of the last.
+    pub(super) fn begin(&mut self, rows: &Rows, pulls: &[Pull], touches: &[Touch], of_touch: &[(u32, u32)], h: f64) {
+        self.fliers.clear();
+        self.fliers.resize(rows.mobile.len(), Flier::default());
+        self.spent.clear();
+        self.spent.resize(rows.rows.len(), 0.0);
+        self.spenders.clear();
+        let drag = pulls.iter().map(|pull| pull.drag).find(|drag| *drag != (0.0, 0.0)).unwrap_or((0.0, 0.0));
+        self.coefficients = (!pulls.is_empty()).then(|| (Flight::new(drag.0, h), Flight::new(drag.1, h)));
+        self.carry(rows, touches, of_touch);
+    }
+
+    /// Contacts push as their touches say.
+    pub(super) fn carry(&mut self, rows: &Rows, touches: &[Touch], of_touch: &[(u32, u32)]) {
+        self.fliers.iter_mut().for_each(|flier| flier.carried = [0.0; 3]);
+        for (touch, (row_a, row_b)) in touches.iter().zip(of_touch) {
+            let sum = touch.push[0] + touch.push[1];
+            if sum == 0.0 {
+                continue;
+            }
+            let t = Vec2::new(touch.n.y, -touch.n.x);
+            let p = touch.n * sum + t * touch.grip;
+            let twist = |lever: [f64; 2], along: f64| {
+                lever[0] * touch.push[0] + lever[1] * touch.push[1] + along * touch.grip
+            };
+            let ends = [(*row_a, -1.0, twist(touch.lever_a, touch.along_a)), (*row_b, 1.0, twist(touch.lever_b, touch.along_b))];
+            for (row, sign, twist) in ends {
+                let Some(k) = rows.mobile_of(row) else { continue };
+                let (row, carried) = (&rows.rows[row as usize].0, &mut self.fliers[k].carried);
+                carried[0] += sign * row[INVERSE_MASS] * p.x;
+                carried[1] += sign * row[INVERSE_MASS] * p.y;
+                carried[2] += sign * row[INVERSE_MOMENT] * twist;
+            }
+        }
+    }
+
+    /// The motions of bodies on which contacts push as they are now said to.
+    pub(super) fn renew(&self, rows: &mut Rows) {
+        for (k, flier) in self.fliers.iter().enumerate() {
+            let row = &mut rows.rows[IDLE + k].0;
+            for (at, q) in [VX, VZ, SPIN].into_iter().enumerate() {
+                row[q] = flier.free[at] + flier.carried[at];
+            }
+        }
+    }
+
+    /// A sub-step begins: gravity, drag and pushes act, and contacts as they did before.
+    pub(super) fn set_out(&mut self, rows: &mut Rows, pulls: &[Pull], h: f64) {
+        for (k, flier) in self.fliers.iter_mut().enumerate() {
+            let row = &mut rows.rows[IDLE + k].0;
+            flier.start = [row[VX], row[VZ], row[SPIN]];
+            let spent = self.spent[IDLE + k];
+            let (v, omega) = (Vec2::new(row[VX], row[VZ]), row[SPIN]);
+            match &self.coefficients {
+                None => {
+                    flier.free = flier.start;
+                    flier.way = flier.start.map(|v| v * (h - spent));
+                }
+                Some((linear, angular)) => {
+                    let pull = pulls[rows.mobile[k] as usize];
+                    let (linear, angular) = if spent == 0.0 {
+                        (*linear, *angular)
+                    } else {
+                        (Flight::new(pull.drag.0, h - spent), Flight::new(pull.drag.1, h - spent))
+                    };
+                    let after = v * linear.keep + pull.a * linear.reach;
+                    let way = v * linear.reach + pull.a * linear.fall;
+                    flier.free = [after.x, after.y, omega * angular.keep + pull.alpha * angular.reach];
+                    flier.way = [way.x, way.y, omega * angular.reach + pull.alpha * angular.fall];
+                }
+            }
+            for (at, q) in [VX, VZ, SPIN].into_iter().enumerate() {
+                row[q] = flier.free[at] + flier.carried[at];
+            }
+        }
+    }
+
+    /// The sub-step ends: bodies have come where their motions took them.
+    pub(super) fn arrive(&mut self, rows: &mut Rows, pulls: &[Pull], h: f64) {
+        for (k, flier) in self.fliers.iter_mut().enumerate() {
+            let row = &mut rows.rows[IDLE + k].0;
+            let left = h - self.spent[IDLE + k];
+            let pulled = if pulls.is_empty() { 0.0 } else { pulls[rows.mobile[k] as usize].a.norm_squared() };
+            let changed = [row[VX] - flier.free[0], row[VZ] - flier.free[1], row[SPIN] - flier.free[2]];
+            let (dx, dz) = (row[VX] - flier.start[0], row[VZ] - flier.start[1]);
+            let by_force = dx * dx + dz * dz <= FORCEFUL * FORCEFUL * pulled * h * h;
+            let share = if by_force { 0.5 * left } else { left };
+            for (k, d) in [X, Z, TURN].into_iter().enumerate() {
+                row[d] += flier.way[k] + share * changed[k];
+            }
+            flier.carried = changed;
+        }
+        let fixed = IDLE + rows.mobile.len();
+        for (row, spent) in rows.rows[fixed..].iter_mut().zip(&self.spent[fixed..]) {
+            let row = &mut row.0;
+            for (d, v) in [(X, VX), (Z, VZ), (TURN, SPIN)] {
+                row[d] += row[v] * (h - spent);
+            }
+        }
+        for row in self.spenders.drain(..) {
+            self.spent[row as usize] = 0.0;
+        }
+    }
+
+    /// The greatest speed of a body's centre when the sub-step began.
+    pub(super) fn fastest(&self) -> f64 {
+        let squares = self.fliers.iter().map(|flier| flier.start[0] * flier.start[0] + flier.start[1] * flier.start[1]);
+        squares.fold(0.0, f64::max).sqrt()
+    }
+
+    /// How a row's body flies from where it stands now in the sub-step.
+    pub(super) fn path(rows: &Rows, row: u32, frame: &Frame, pull: Pull) -> Path {
+        let r = &rows.rows[row as usize].0;
+        let frame = crate::flight::turned(frame, frame.o + Vec2::new(r[X], r[Z]), r[TURN]);
+        Path { frame, motion: Motion { v: Vec2::new(r[VX], r[VZ]), omega: r[SPIN] }, pull }
+    }
+
+    /// A row's body flies on for some time of the sub-step, ahead of the others.
+    pub(super) fn go_on(&mut self, rows: &mut Rows, row: u32, path: &Path, time: f64) {
+        if time == 0.0 {
+            return;
+        }
+        let change = path.change(time);
+        let r = &mut rows.rows[row as usize].0;
+        r[X] += change.shift.x;
+        r[Z] += change.shift.y;
+        r[TURN] += change.turn;
+        (r[VX], r[VZ], r[SPIN]) = (change.motion.v.x, change.motion.v.y, change.motion.omega);
+        if self.spent[row as usize] == 0.0 {
+            self.spenders.push(row);
+        }
+        self.spent[row as usize] += time;
+    }
+}

@@ -1,0 +1,362 @@
+//! Stepped motion with impulses: contacts that last are solved all together, in sub-steps.
+//!
+//! | stage | function |
+//! |---|---|
+//! | who may touch within the step, and where | [`Contacts::find`] |
+//! | bodies and touches laid out for the solver | [`Contacts::lay_out`], [`rows`], [`blocks`] |
+//! | sub-step: impacts of bodies that touch no other | [`strike`] |
+//! | sub-step: what acts on bodies over it | [`Fliers::set_out`](flying::Fliers::set_out) |
+//! | sub-step: pushes and friction at every touch | [`sweep`] |
+//! | sub-step: bodies go on | [`Fliers::arrive`](flying::Fliers::arrive) |
+//! | the step ends: bodies take their places, touches remember | [`Contacts::settle`] |
+//!
+//! Bodies that nothing is near fly on exactly, in one go. A scene without contacts has no sub-steps.
+
+mod blocks;
+mod flying;
+mod rest;
+mod rows;
+mod strike;
+mod sweep;
+mod touch;
+mod weights;
+
+use crate::advance::{advance_alone, frame_before, is_finite};
+use crate::area::Vec2;
+use crate::bodies::Bodies;
+use crate::broad_phase::Sweeping;
+use crate::detect::manifold::Placed;
+use crate::exchange::PairKind;
+use crate::flight::{Path, Pull};
+use crate::plan::{ContactPlan, FlightPlan};
+use crate::step::Hit;
+use crate::width::Width;
+use crate::world::{BodyId, World};
+use blocks::Blocks;
+use flying::Fliers;
+use rest::{Effort, Rest, Settled};
+use rows::{IDLE, Rows, SPIN, TURN, VX, VZ, X, Z};
+use sweep::Sweep;
+use touch::Touch;
+
+/// Overlaps found at the start of a step are let go at this rate \[1/s\]: a fifth of them in a sixtieth of a second.
+const RECOVERY: f64 = 12.0;
+
+/// Sweeps over all touches in a sub-step.
+const SWEEPS: usize = 2;
+
+/// A scene in which no body is faster than this many times what gravity does in a sub-step is quiet: settled, not swept.
+const QUIET: f64 = 16.0;
+
+/// A scene in which no body is faster than this many times that stands still, or is about to: worth being settled to the end.
+const STILL: f64 = 2.0;
+
+/// Rounds to settle what stands still, in a sub-step at most; after the first few the weights are guessed.
+const PATIENCE: u32 = 500;
+const FIRST: u32 = 24;
+
+/// Weights are guessed where more than this share of what gravity does is not borne yet.
+const UNBALANCED: f64 = 1e-2;
+
+/// Touches to improve in a sub-step where little is to be improved.
+const BUDGET: u32 = 20_000;
+
+/// Points closer than this share of the smaller rectangle touch.
+const TOUCHING: f64 = 1e-9;
+
+/// The state of the contact solver; only a world in stepped motion with impulses has one.
+#[derive(Clone, Debug)]
+pub(crate) struct Contacts {
+    plan: ContactPlan,
+    width: Width,
+    /// Gaps and depths up to this are none \[m\].
+    band: f64,
+    /// The touches of this step and of the last, in the order of their rectangles.
+    touches: Vec<Touch>,
+    before: Vec<Touch>,
+    /// Pairs of bodies that may meet within the step.
+    near: Vec<(u32, u32)>,
+    /// What acts on each body over the step.
+    pulls: Vec<Pull>,
+    rows: Rows,
+    of_touch: Vec<(u32, u32)>,
+    blocks: Blocks,
+    fliers: Fliers,
+    rest: Rest,
+    /// Rounds to be spent upon what stands still: fewer where they were in vain.
+    patience: u32,
+    /// Touches of bodies that touch no other.
+    lonely: Vec<u32>,
+    /// The hits of this step, the next to be told last.
+    untold: Vec<Hit>,
+}
+
+impl Contacts {
+    pub(crate) fn new(plan: ContactPlan, bodies: &Bodies) -> Self {
+        let mobile = (0..bodies.len()).filter(|body| bodies.is_mobile(*body));
+        let smallest = mobile.map(|body| bodies.smallest_half(body)).fold(f64::INFINITY, f64::min);
+        Contacts {
+            plan,
+            width: Width::best(),
+            band: if smallest.is_finite() { TOUCHING * smallest } else { 0.0 },
+            touches: Vec::new(),
+            before: Vec::new(),
+            near: Vec::new(),
+            pulls: Vec::new(),
+            rows: Rows::default(),
+            of_touch: Vec::new(),
+            blocks: Blocks::default(),
+            fliers: Fliers::default(),
+            rest: Rest::default(),
+            patience: PATIENCE,
+            lonely: Vec::new(),
+            untold: Vec::new(),
+        }
+    }
+
+    /// What decides how the world goes on, for its digest.
+    pub(crate) fn words(&self) -> impl Iterator<Item = u64> {
+        self.touches.iter().flat_map(Touch::words).chain([u64::from(self.patience)])
+    }
+
+    /// The next hit to be told.
+    pub(crate) fn next_hit(&mut self) -> Option<Hit> {
+        self.untold.pop()
+    }
+}
+
+impl World {
+    /// A whole step of all bodies.
+    pub(crate) fn begin_contacts(&mut self, contacts: &mut Contacts) {
+        let dt = self.plan.time_step;
+        self.advances += 1;
+        let time = self.advances as f64 * dt;
+        contacts.pull(self);
+        let courses = self.set_courses(time);
+        contacts.find(self);
+        contacts.lay_out(self);
+        contacts.untold.clear();
+        if !contacts.touches.is_empty() {
+            let h = dt / f64::from(contacts.plan.substeps);
+            contacts.fliers.begin(&contacts.rows, &contacts.pulls, &contacts.touches, &contacts.of_touch, h);
+            for _ in 0..contacts.plan.substeps {
+                contacts.substep(self, h);
+            }
+        }
+        contacts.settle(self);
+        self.fly_alone(contacts);
+        self.run_courses(&courses, time);
+        self.pushes.clear();
+    }
+
+    /// Bodies on a course are given the motion that takes them where they will be at the step's end.
+    fn set_courses(&mut self, time: f64) -> Vec<crate::frame::Frame> {
+        let mut stood = Vec::with_capacity(self.movers.prescribed.len());
+        let dt = self.plan.time_step;
+        for prescription in &self.movers.prescribed {
+            let body = prescription.body;
+            let before = self.bodies.frame[body];
+            let angle = self.bodies.angle[body];
+            prescription.apply(&mut self.bodies, time);
+            let after = self.bodies.frame[body];
+            self.bodies.frame[body] = before;
+            let turned = crate::frame::Angle::new(self.bodies.angle[body].value - angle.value).value;
+            self.bodies.angle[body] = angle;
+            self.bodies.motion[body].v = (after.o - before.o) / dt;
+            self.bodies.motion[body].omega = turned / dt;
+            stood.push(before);
+        }
+        stood
+    }
+
+    fn run_courses(&mut self, _: &[crate::frame::Frame], time: f64) {
+        for prescription in &self.movers.prescribed {
+            prescription.apply(&mut self.bodies, time);
+        }
+        self.work.prescribed += self.movers.prescribed.len() as u64;
+    }
+
+    /// Bodies that nothing is near.
+    fn fly_alone(&mut self, contacts: &Contacts) {
+        let World { plan, bodies, movers, work, .. } = self;
+        let touched = |body: u32| !contacts.touches.is_empty() && contacts.rows.has(body);
+        let lost = advance_alone(bodies, movers, plan.flight, plan.time_step, &contacts.pulls, touched, work);
+        if let Some(body) = lost {
+            self.report_fault(body);
+        }
+    }
+}
+
+impl Contacts {
+    /// What acts on each body over the step: gravity, drag, pushes. Empty when nothing acts on any.
+    fn pull(&mut self, world: &World) {
+        self.pulls.clear();
+        if world.plan.flight == FlightPlan::Free && world.pushes.is_empty() {
+            return;
+        }
+        let (a, drag) = match world.plan.flight {
+            FlightPlan::Free => (Vec2::zeros(), (0.0, 0.0)),
+            FlightPlan::Forced { gravity, drag, .. } => (gravity, drag),
+        };
+        let fixed = Pull::NONE;
+        let mobile = Pull { a, alpha: 0.0, drag };
+        let of = |body: usize| if world.bodies.is_mobile(body) { mobile } else { fixed };
+        self.pulls.extend((0..world.bodies.len()).map(of));
+        for push in &world.pushes {
+            let (body, inertia) = (push.body as usize, world.bodies.inertia[push.body as usize]);
+            self.pulls[body].a += push.force / inertia.mass;
+            self.pulls[body].alpha += push.torque / inertia.moment;
+        }
+    }
+
+    /// Finds all touches of the step, and what they remember of the last.
+    fn find(&mut self, world: &mut World) {
+        let World { plan, bodies, broad_phase, work, .. } = world;
+        let dt = plan.time_step;
+        self.near.clear();
+        let near = &mut self.near;
+        let sweeping = Sweeping { pulls: &self.pulls, time: dt };
+        broad_phase.visit_swept(bodies, &sweeping, work, |i, j, _| near.push((i as u32, j as u32)));
+        near.sort_unstable();
+        near.dedup();
+        core::mem::swap(&mut self.touches, &mut self.before);
+        self.touches.clear();
+        let earlier = |body: usize| frame_before(bodies, plan.flight, dt, body);
+        let mut last = self.before.iter().peekable();
+        for &(i, j) in &self.near {
+            let (i, j) = (i as usize, j as usize);
+            work.pairs_tested += 1;
+            let (one, two) = (Path::of(bodies, &self.pulls, i), Path::of(bodies, &self.pulls, j));
+            for rect_i in Placed::all(bodies, i) {
+                for rect_j in Placed::all(bodies, j) {
+                    work.axes_tested += 4;
+                    let key = (rect_i.index as u32, rect_j.index as u32);
+                    while last.next_if(|touch| touch.rects < key).is_some() {}
+                    let before = last.peek().filter(|touch| touch.rects == key);
+                    let margin = one.closing(&two, rect_i.rect.far(), rect_j.rect.far(), dt)
+                        + TOUCHING * rect_i.rect.half().min().min(rect_j.rect.half().min());
+                    let found = Touch::find(bodies, (rect_i, rect_j), margin, before.copied(), earlier);
+                    self.touches.extend(found);
+                }
+            }
+        }
+        work.pairs_listed += self.touches.len() as u64;
+    }
+
+    /// Lays bodies and touches out for the solver.
+    fn lay_out(&mut self, world: &World) {
+        if self.touches.is_empty() {
+            return;
+        }
+        self.rows.fill(&world.bodies, &world.movers.mobile, &self.touches, &mut self.of_touch);
+        let keep = libm::exp(-RECOVERY * world.plan.time_step);
+        self.blocks.fill(&self.touches, &self.of_touch, &self.rows, keep, self.band);
+        self.lonely.clear();
+        for (k, (a, b)) in self.of_touch.iter().enumerate() {
+            let alone = |row: u32| self.rows.mobile_of(row).is_none_or(|at| self.rows.degree[at] == 1);
+            if alone(*a) && alone(*b) {
+                self.lonely.push(k as u32);
+            }
+        }
+    }
+
+    fn substep(&mut self, world: &mut World, h: f64) {
+        self.strike(world, h);
+        self.fliers.set_out(&mut self.rows, &self.pulls, h);
+        let pulled = world.plan.gravity().norm() * h;
+        let fastest = self.fliers.fastest();
+        if fastest > QUIET * pulled {
+            for _ in 0..SWEEPS {
+                self.sweep(1.0 / h);
+                world.work.touches_solved += self.touches.len() as u64;
+            }
+        }
+        self.settle_touches(world, h, pulled, fastest);
+        self.fliers.arrive(&mut self.rows, &self.pulls, h);
+    }
+
+    /// Improves all touches together, for as long as it is worth it.
+    fn settle_touches(&mut self, world: &mut World, h: f64, pulled: f64, fastest: f64) {
+        let few = (BUDGET / self.touches.len() as u32).min(PATIENCE);
+        let still = fastest <= STILL * pulled && pulled > 0.0;
+        let most = if still { self.patience.max(few) } else { few };
+        let first = if still { FIRST.min(most) } else { most };
+        let Settled { mut rounds, left, enough } = self.settle_for(h, Effort { pulled, most: first });
+        if still && !enough {
+            if left > UNBALANCED * pulled {
+                let pull = world.plan.gravity() * h;
+                weights::guess(&mut self.touches, &self.of_touch, &self.rows, &world.bodies, pull, self.band);
+                self.fliers.carry(&self.rows, &self.touches, &self.of_touch);
+                self.fliers.renew(&mut self.rows);
+                self.blocks.renew(&self.touches);
+            }
+            let more = self.settle_for(h, Effort { pulled, most });
+            self.patience = if more.enough { PATIENCE } else { (most / 2).max(FIRST) };
+            rounds += more.rounds;
+        }
+        world.work.touches_solved += u64::from(rounds) * self.touches.len() as u64;
+    }
+
+    fn settle_for(&mut self, h: f64, effort: Effort) -> Settled {
+        let (rows, blocks) = (&mut self.rows, &mut self.blocks.blocks);
+        self.rest.settle(rows, blocks, self.width, (1.0 / h, self.band), effort)
+    }
+
+    fn sweep(&mut self, rate: f64) -> f64 {
+        let (rows, blocks, band) = (&mut self.rows.rows[..], &mut self.blocks.blocks[..], self.band);
+        if self.plan.friction {
+            self.width.run(Sweep::<true> { rows, blocks, rate, band })
+        } else {
+            self.width.run(Sweep::<false> { rows, blocks, rate, band })
+        }
+    }
+
+    /// Bodies take their places and motions; touches remember what they pushed.
+    fn settle(&mut self, world: &mut World) {
+        if self.touches.is_empty() {
+            return;
+        }
+        for (k, &body) in self.rows.mobile.iter().enumerate() {
+            let body = body as usize;
+            let row = &self.rows.rows[IDLE + k].0;
+            let bodies: &mut Bodies = &mut world.bodies;
+            bodies.shift(body, Vec2::new(row[X], row[Z]));
+            if row[TURN] != 0.0 {
+                bodies.turn(body, row[TURN]);
+            }
+            bodies.motion[body].v = Vec2::new(row[VX], row[VZ]);
+            bodies.motion[body].omega = row[SPIN];
+            if !is_finite(bodies, body) {
+                world.report_fault(body);
+            }
+        }
+        for (k, touch) in self.touches.iter_mut().enumerate() {
+            let (block, lane) = self.blocks.place[k];
+            let block = &self.blocks.blocks[block as usize];
+            for p in 0..2 {
+                touch.push[p] = block.push[p].0[lane as usize];
+            }
+            touch.grip = block.grip.0[lane as usize];
+            let pressed = touch.push[0] + touch.push[1] > 0.0;
+            let was_open = touch.gap[0].min(touch.gap[1]) > self.band;
+            if pressed && !touch.touching && was_open && self.lonely.binary_search(&(k as u32)).is_err() {
+                let (a, b) = (touch.a.min(touch.b), touch.a.max(touch.b));
+                let kind = PairKind::of(world.bodies.role[a as usize], world.bodies.role[b as usize]);
+                world.work.count_exchange(kind);
+                self.untold.push(Hit {
+                    iteration: world.iteration,
+                    a: BodyId(a),
+                    b: BodyId(b),
+                    point: touch.middle + world.plan.origin,
+                    normal: touch.n,
+                    depth: 0.0,
+                    kind,
+                });
+            }
+            touch.touching = pressed;
+        }
+        self.untold.sort_by_key(|hit| (hit.a, hit.b));
+        self.untold.reverse();
+        world.collisions += self.untold.len() as u64;
+    }
+}

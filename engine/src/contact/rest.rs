@@ -1,0 +1,227 @@
+//! Rest: all touches improved together until nothing changes any more (block Jacobi, accelerated).
+//!
+//! Sweeps are quick where things move, but the weight of a tall stack travels by one touch a sweep. What is at rest is worth
+//! being solved to the end, once: warm starting makes it free from then on. Every round improves all touches from the same
+//! motions, so that a scene that is its own mirror image stays so, and starts from beyond the last two
+//! (Nesterov 1983), unless that led astray (O'Donoghue and Candès 2015): a stack of n takes about n rounds and not n².
+//!
+//! Each body is shared out among its touches (mass splitting, Tonge 2012): with as many times its true inverse mass in every
+//! touch as it has touches, improving all at once never overshoots.
+
+use super::blocks::Block;
+use super::rows::{INVERSE_MASS, INVERSE_MOMENT, Row, Rows, SPIN, VX, VZ};
+use super::sweep::{asked, Lanes, Response, gather, gaps, scatter};
+use crate::lanes::{Eight, LANES};
+use crate::width::{Width, Work};
+
+/// How good is good enough: changes of velocity below this share of what gravity does in a sub-step; more where there
+/// are more touches than a few, for each matters less and all take longer.
+const SETTLED: f64 = 1e-11;
+const A_FEW: f64 = 16.0;
+
+/// How long rounds go on.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Effort {
+    /// What gravity does in a sub-step \[m/s\].
+    pub(super) pulled: f64,
+    /// Rounds at most.
+    pub(super) most: u32,
+}
+
+impl Effort {
+    /// Changes of velocity that do not count \[m/s\].
+    fn settled(&self, touches: usize) -> f64 {
+        let many = (touches as f64 / A_FEW).max(1.0);
+        SETTLED * many * many * self.pulled
+    }
+}
+
+/// How far rounds have come.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Settled {
+    pub(super) rounds: u32,
+    /// The change of velocity in the last round \[m/s\].
+    pub(super) left: f64,
+    /// Whether that is settled.
+    pub(super) enough: bool,
+}
+
+/// The pushes and friction of a block, and what the points ask.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Guess {
+    x: [Eight; 3],
+    last: [Eight; 3],
+}
+
+/// What the rounds need, kept for the next time.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Rest {
+    guesses: Vec<Guess>,
+    asked: Vec<[Eight; 2]>,
+    /// Motions at the present guess, at the last one, and beyond both.
+    now: Vec<Row>,
+    last: Vec<Row>,
+    beyond: Vec<Row>,
+}
+
+/// In rows of this solver the displacements' places hold the shared-out inverse mass and moment.
+const SHARED_MASS: usize = 3;
+const SHARED_MOMENT: usize = 4;
+
+impl Rest {
+    /// Improves all touches until they are settled; gives how many rounds it took.
+    pub(super) fn settle(
+        &mut self,
+        rows: &mut Rows,
+        blocks: &mut [Block],
+        width: Width,
+        (rate, band): (f64, f64),
+        effort: Effort,
+    ) -> Settled {
+        let settled = effort.settled(blocks.len() * LANES);
+        self.begin(rows, blocks, Eight::all(rate), Eight::all(band));
+        let (mut momentum, mut before) = (1.0_f64, f64::INFINITY);
+        let (mut rounds, mut left) = (0, 0.0);
+        while rounds < effort.most {
+            rounds += 1;
+            let next = 0.5 * (1.0 + (1.0 + 4.0 * momentum * momentum).sqrt());
+            let share = (momentum - 1.0) / next;
+            self.extrapolate(share);
+            let Rest { guesses, asked, now, beyond, .. } = self;
+            let (change, back) =
+                width.run(Round { guesses, asked, blocks, from: beyond, to: now, share: Eight::all(share) });
+            let astray = back > 0.0 || change > before;
+            (before, left) = (change, change);
+            momentum = if astray { 1.0 } else { next };
+            if change <= settled {
+                break;
+            }
+        }
+        self.end(rows, blocks);
+        Settled { rounds, left, enough: left <= settled }
+    }
+
+    fn begin(&mut self, rows: &Rows, blocks: &[Block], rate: Eight, band: Eight) {
+        self.guesses.clear();
+        self.asked.clear();
+        for block in blocks {
+            let x = [block.push[0], block.push[1], block.grip];
+            self.guesses.push(Guess { x, last: x });
+            let (a, b) = (gather(&rows.rows, &block.row_a), gather(&rows.rows, &block.row_b));
+            let gap = gaps(block, &a, &b);
+            self.asked.push([0, 1].map(|k| asked(block, k, gap[k], rate, band)));
+        }
+        self.now.clear();
+        self.now.extend(rows.rows.iter().enumerate().map(|(k, row)| {
+            let mut row = *row;
+            let share = rows.mobile_of(k as u32).map_or(1, |at| rows.degree[at]);
+            row.0[SHARED_MASS] = row.0[INVERSE_MASS] * f64::from(share);
+            row.0[SHARED_MOMENT] = row.0[INVERSE_MOMENT] * f64::from(share);
+            row
+        }));
+        self.last.clear();
+        self.last.extend_from_slice(&self.now);
+        self.beyond.clear();
+        self.beyond.extend_from_slice(&self.now);
+    }
+
+    /// The motions from which the next round starts: on beyond the last two.
+    fn extrapolate(&mut self, share: f64) {
+        for ((now, last), beyond) in self.now.iter_mut().zip(&mut self.last).zip(&mut self.beyond) {
+            for q in [VX, VZ, SPIN] {
+                beyond.0[q] = now.0[q] + share * (now.0[q] - last.0[q]);
+            }
+            *last = *now;
+            *now = *beyond;
+        }
+    }
+
+    fn end(&mut self, rows: &mut Rows, blocks: &mut [Block]) {
+        for (block, guess) in blocks.iter_mut().zip(&self.guesses) {
+            [block.push[0], block.push[1], block.grip] = guess.x;
+        }
+        for (row, now) in rows.rows.iter_mut().zip(&self.now) {
+            for q in [VX, VZ, SPIN] {
+                row.0[q] = now.0[q];
+            }
+        }
+    }
+}
+
+/// One round: every touch improved from the motions `from`, the changes added to `to`.
+struct Round<'a> {
+    guesses: &'a mut [Guess],
+    asked: &'a [[Eight; 2]],
+    blocks: &'a [Block],
+    from: &'a [Row],
+    to: &'a mut [Row],
+    share: Eight,
+}
+
+impl Work for Round<'_> {
+    /// The greatest change of a velocity, and whether (positive) the round turns back on the way it came.
+    type Out = (f64, f64);
+
+    #[inline(always)]
+    fn run(self) -> (f64, f64) {
+        let (mut most, mut back) = (Eight::ZERO, Eight::ZERO);
+        for ((block, guess), asked) in self.blocks.iter().zip(self.guesses).zip(self.asked) {
+            let (a, b) = (gather(self.from, &block.row_a), gather(self.from, &block.row_b));
+            let shared = Response::with(block, (a[SHARED_MASS], a[SHARED_MOMENT]), (b[SHARED_MASS], b[SHARED_MOMENT]));
+            let from: [Eight; 3] =
+                core::array::from_fn(|k| guess.x[k] + self.share * (guess.x[k] - guess.last[k]));
+            let (x, change) = improve(block, asked, &shared, &a, &b, &from);
+            let step: [Eight; 3] = core::array::from_fn(|k| x[k] - from[k]);
+            for k in 0..3 {
+                back = back - change[k] * (x[k] - guess.x[k]);
+                most = most.max(change[k].abs());
+            }
+            *guess = Guess { x, last: guess.x };
+            give(block, &a, &b, self.to, step);
+        }
+        (most.greatest(), back.sum())
+    }
+}
+
+/// Better pushes and friction, seeing the motions as they are; and the changes as velocities.
+#[inline(always)]
+fn improve(
+    block: &Block,
+    asked: &[Eight; 2],
+    shared: &Response,
+    a: &Lanes,
+    b: &Lanes,
+    from: &[Eight; 3],
+) -> ([Eight; 3], [Eight; 3]) {
+    let (ux, uz) = (b[VX] - a[VX], b[VZ] - a[VZ]);
+    let along_n = block.nx * ux + block.nz * uz;
+    let u = |k: usize| along_n + block.lever_b[k] * b[SPIN] - block.lever_a[k] * a[SPIN];
+    let q1 = u(0) - asked[0] - (shared.k[0] * from[0] + shared.across * from[1]);
+    let q2 = u(1) - asked[1] - (shared.across * from[0] + shared.k[1] * from[1]);
+    let [x1, x2] = shared.complement([q1, q2]);
+    let mass = a[SHARED_MASS] + b[SHARED_MASS];
+    let k = mass + a[SHARED_MOMENT] * block.along_a * block.along_a + b[SHARED_MOMENT] * block.along_b * block.along_b;
+    let slip = block.nz * ux - block.nx * uz + block.along_b * b[SPIN] - block.along_a * a[SPIN];
+    let most = block.friction * (x1 + x2);
+    let grip = (from[2] - slip * k.inverse()).min(most).max(-most);
+    let change = [shared.k[0] * (x1 - from[0]), shared.k[1] * (x2 - from[1]), k * (grip - from[2])];
+    ([x1, x2, grip], change)
+}
+
+/// Adds impulses to the motions of a block's bodies.
+#[inline(always)]
+fn give(block: &Block, a: &Lanes, b: &Lanes, to: &mut [Row], [p1, p2, pt]: [Eight; 3]) {
+    let sum = p1 + p2;
+    let (px, pz) = (block.nx * sum + block.nz * pt, block.nz * sum - block.nx * pt);
+    let twist_a = block.lever_a[0] * p1 + block.lever_a[1] * p2 + block.along_a * pt;
+    let twist_b = block.lever_b[0] * p1 + block.lever_b[1] * p2 + block.along_b * pt;
+    let (mut on_a, mut on_b) = (gather(to, &block.row_a), gather(to, &block.row_b));
+    on_a[VX] = on_a[VX] - a[INVERSE_MASS] * px;
+    on_a[VZ] = on_a[VZ] - a[INVERSE_MASS] * pz;
+    on_a[SPIN] = on_a[SPIN] - a[INVERSE_MOMENT] * twist_a;
+    on_b[VX] = on_b[VX] + b[INVERSE_MASS] * px;
+    on_b[VZ] = on_b[VZ] + b[INVERSE_MASS] * pz;
+    on_b[SPIN] = on_b[SPIN] + b[INVERSE_MOMENT] * twist_b;
+    scatter(to, &block.row_a, on_a);
+    scatter(to, &block.row_b, on_b);
+}

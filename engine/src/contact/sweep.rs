@@ -1,0 +1,200 @@
+//! A sweep over all touches: each is solved exactly, with the motions its bodies have by then (block Gauss–Seidel).
+//!
+//! A touch has two points and one friction between them. Where they are (as linear functions of how far the bodies have come
+//! since the step began) decides what they ask:
+//!
+//! - in each other: first they are moved apart, by the least displacements weighted by mass; no velocity comes of it;
+//! - touching: u ≥ `part` (0, or what restitution asks), with push ≥ 0 and one of the two exact;
+//! - open: u ≥ −gap/h, so that they just come to touch.
+//!
+//! The two pushes are the exact solution of the 2×2 complementarity problem, all cases computed side by side and the right one
+//! picked; friction is clamped to the cone of the pushes so far.
+
+use super::blocks::Block;
+use super::rows::{INVERSE_MASS, INVERSE_MOMENT, Row, SPIN, TURN, VX, VZ, X, Z};
+use crate::lanes::{Eight, LANES, transpose};
+use crate::width::Work;
+
+/// One sweep.
+pub(super) struct Sweep<'a, const FRICTION: bool> {
+    pub(super) rows: &'a mut [Row],
+    pub(super) blocks: &'a mut [Block],
+    /// 1/h \[1/s\].
+    pub(super) rate: f64,
+    /// Gaps and depths up to this are none \[m\].
+    pub(super) band: f64,
+}
+
+impl<const FRICTION: bool> Work for Sweep<'_, FRICTION> {
+    /// The greatest change of a velocity at a point \[m/s\].
+    type Out = f64;
+
+    #[inline(always)]
+    fn run(self) -> f64 {
+        let mut most = Eight::ZERO;
+        for block in self.blocks {
+            let (mut a, mut b) = (gather(self.rows, &block.row_a), gather(self.rows, &block.row_b));
+            let response = Response::of(block, &a, &b);
+            let gap = gaps(block, &a, &b);
+            let band = Eight::all(self.band);
+            let gap = part_overlap(block, &mut a, &mut b, &response, gap, band);
+            if FRICTION {
+                most = most.max(rub(block, &mut a, &mut b));
+            }
+            most = most.max(press(block, &mut a, &mut b, &response, gap, (Eight::all(self.rate), band)));
+            scatter(self.rows, &block.row_a, a);
+            scatter(self.rows, &block.row_b, b);
+        }
+        most.greatest()
+    }
+}
+
+pub(super) type Lanes = [Eight; LANES];
+
+/// How velocities at the two points answer pushes there.
+pub(super) struct Response {
+    pub(super) k: [Eight; 2],
+    pub(super) across: Eight,
+    /// 1/det, 1/k.
+    inverse: Eight,
+    alone: [Eight; 2],
+}
+
+impl Response {
+    #[inline(always)]
+    fn of(block: &Block, a: &Lanes, b: &Lanes) -> Response {
+        Response::with(block, (a[INVERSE_MASS], a[INVERSE_MOMENT]), (b[INVERSE_MASS], b[INVERSE_MOMENT]))
+    }
+
+    /// The response of bodies with these inverse masses and moments.
+    #[inline(always)]
+    pub(super) fn with(block: &Block, (mass_a, turn_a): (Eight, Eight), (mass_b, turn_b): (Eight, Eight)) -> Response {
+        let mass = mass_a + mass_b;
+        let ([a1, a2], [b1, b2]) = (block.lever_a, block.lever_b);
+        let (ta1, tb1) = (turn_a * a1, turn_b * b1);
+        let k1 = mass + ta1 * a1 + tb1 * b1;
+        let k2 = mass + turn_a * a2 * a2 + turn_b * b2 * b2;
+        let across = mass + ta1 * a2 + tb1 * b2;
+        let inverse = (k1 * k2 - across * across).inverse();
+        Response { k: [k1, k2], across, inverse, alone: [k1.inverse(), k2.inverse()] }
+    }
+
+    /// The least x ≥ 0 with w = q + K x ≥ 0 and x·w = 0, exactly.
+    #[inline(always)]
+    pub(super) fn complement(&self, [q1, q2]: [Eight; 2]) -> [Eight; 2] {
+        let both1 = (self.across * q2 - self.k[1] * q1) * self.inverse;
+        let both2 = (self.across * q1 - self.k[0] * q2) * self.inverse;
+        let only1 = (-q1 * self.alone[0]).max(Eight::ZERO);
+        let only2 = (-q2 * self.alone[1]).max(Eight::ZERO);
+        let left2 = q2 + self.across * only1;
+        let one1 = left2.pick(only1, Eight::ZERO);
+        let one2 = left2.pick(Eight::ZERO, only2);
+        let both = both1.min(both2);
+        [both.pick(both1, one1), both.pick(both2, one2)]
+    }
+}
+
+/// The gaps at both points by now; far where an open point has slipped beside the face.
+#[inline(always)]
+pub(super) fn gaps(block: &Block, a: &Lanes, b: &Lanes) -> [Eight; 2] {
+    let (dx, dz) = (b[X] - a[X], b[Z] - a[Z]);
+    let along_n = block.nx * dx + block.nz * dz;
+    let slipped = block.nz * dx - block.nx * dz;
+    let on_face = (slipped - block.slip_back).min(block.slip_on - slipped);
+    let gap = |k: usize| {
+        let now = block.gap[k] + along_n + block.lever_b[k] * b[TURN] - block.lever_a[k] * a[TURN];
+        let beside = on_face.pick(now, Eight::all(super::touch::FAR));
+        // What already touches is slid off its face no further than a step goes.
+        (-block.gap[k]).pick(now, beside)
+    };
+    [gap(0), gap(1)]
+}
+
+/// Moves bodies apart where they are deeper in each other than they may be by the end of the step.
+#[inline(always)]
+fn part_overlap(block: &Block, a: &mut Lanes, b: &mut Lanes, response: &Response, gap: [Eight; 2], band: Eight) -> [Eight; 2] {
+    let too_deep = [gap[0] - block.least[0] + band, gap[1] - block.least[1] + band];
+    let [x1, x2] = response.complement(too_deep);
+    let sum = x1 + x2;
+    let (px, pz) = (block.nx * sum, block.nz * sum);
+    a[X] = a[X] - a[INVERSE_MASS] * px;
+    a[Z] = a[Z] - a[INVERSE_MASS] * pz;
+    a[TURN] = a[TURN] - a[INVERSE_MOMENT] * (block.lever_a[0] * x1 + block.lever_a[1] * x2);
+    b[X] = b[X] + b[INVERSE_MASS] * px;
+    b[Z] = b[Z] + b[INVERSE_MASS] * pz;
+    b[TURN] = b[TURN] + b[INVERSE_MOMENT] * (block.lever_b[0] * x1 + block.lever_b[1] * x2);
+    [gap[0] + response.k[0] * x1 + response.across * x2, gap[1] + response.across * x1 + response.k[1] * x2]
+}
+
+/// Friction: against the slip, as far as the pushes hold it.
+#[inline(always)]
+fn rub(block: &mut Block, a: &mut Lanes, b: &mut Lanes) -> Eight {
+    let mass = a[INVERSE_MASS] + b[INVERSE_MASS];
+    let (turn_a, turn_b) = (a[INVERSE_MOMENT] * block.along_a, b[INVERSE_MOMENT] * block.along_b);
+    let k = mass + turn_a * block.along_a + turn_b * block.along_b;
+    let (ux, uz) = (b[VX] - a[VX], b[VZ] - a[VZ]);
+    let slip = block.nz * ux - block.nx * uz + block.along_b * b[SPIN] - block.along_a * a[SPIN];
+    let most = block.friction * (block.push[0] + block.push[1]);
+    let grip = (block.grip - slip * k.inverse()).min(most).max(-most);
+    let more = grip - block.grip;
+    block.grip = grip;
+    let (px, pz) = (block.nz * more, -(block.nx * more));
+    a[VX] = a[VX] - a[INVERSE_MASS] * px;
+    a[VZ] = a[VZ] - a[INVERSE_MASS] * pz;
+    a[SPIN] = a[SPIN] - turn_a * more;
+    b[VX] = b[VX] + b[INVERSE_MASS] * px;
+    b[VZ] = b[VZ] + b[INVERSE_MASS] * pz;
+    b[SPIN] = b[SPIN] + turn_b * more;
+    (k * more).abs()
+}
+
+/// How fast a point is to part at least: as restitution asks, or so slowly that an open one just comes to touch.
+#[inline(always)]
+pub(super) fn asked(block: &Block, k: usize, gap: Eight, rate: Eight, band: Eight) -> Eight {
+    let open = -((gap - band).max(Eight::ZERO) * rate);
+    (-block.part[k]).pick(open, block.part[k])
+}
+
+/// The pushes at both points.
+#[inline(always)]
+fn press(
+    block: &mut Block,
+    a: &mut Lanes,
+    b: &mut Lanes,
+    response: &Response,
+    gap: [Eight; 2],
+    (rate, band): (Eight, Eight),
+) -> Eight {
+    let along_n = block.nx * (b[VX] - a[VX]) + block.nz * (b[VZ] - a[VZ]);
+    let u = |k: usize| along_n + block.lever_b[k] * b[SPIN] - block.lever_a[k] * a[SPIN];
+    let asked = |k: usize| asked(block, k, gap[k], rate, band);
+    let [p1, p2] = block.push;
+    // Without the pushes so far.
+    let q1 = u(0) - asked(0) - (response.k[0] * p1 + response.across * p2);
+    let q2 = u(1) - asked(1) - (response.across * p1 + response.k[1] * p2);
+    let [x1, x2] = response.complement([q1, q2]);
+    let (d1, d2) = (x1 - p1, x2 - p2);
+    block.push = [x1, x2];
+    let sum = d1 + d2;
+    let (px, pz) = (block.nx * sum, block.nz * sum);
+    a[VX] = a[VX] - a[INVERSE_MASS] * px;
+    a[VZ] = a[VZ] - a[INVERSE_MASS] * pz;
+    a[SPIN] = a[SPIN] - a[INVERSE_MOMENT] * (block.lever_a[0] * d1 + block.lever_a[1] * d2);
+    b[VX] = b[VX] + b[INVERSE_MASS] * px;
+    b[VZ] = b[VZ] + b[INVERSE_MASS] * pz;
+    b[SPIN] = b[SPIN] + b[INVERSE_MOMENT] * (block.lever_b[0] * d1 + block.lever_b[1] * d2);
+    (response.k[0] * d1).abs().max((response.k[1] * d2).abs())
+}
+
+#[inline(always)]
+pub(super) fn gather(rows: &[Row], at: &[u32; LANES]) -> Lanes {
+    transpose(core::array::from_fn(|k| rows[at[k] as usize].0))
+}
+
+#[inline(always)]
+pub(super) fn scatter(rows: &mut [Row], at: &[u32; LANES], lanes: Lanes) {
+    let out = transpose(lanes.map(|lane| lane.0));
+    for k in 0..LANES {
+        rows[at[k] as usize].0 = out[k].0;
+    }
+}
