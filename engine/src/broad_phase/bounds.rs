@@ -22,7 +22,7 @@ const WIDENING: f64 = 1e-13;
 impl Range {
     /// The range, rounded outwards: by twice what rounding to f32 can err.
     #[inline]
-    fn around(min: f64, max: f64) -> Self {
+    pub(super) fn around(min: f64, max: f64) -> Self {
         let ulp = f64::from(f32::EPSILON);
         Range { min: (min - min.abs() * ulp) as f32, max: (max + max.abs() * ulp) as f32 }
     }

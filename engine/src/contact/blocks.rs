@@ -3,6 +3,7 @@
 //! Touches are given colours in their own order: each the first that neither of its bodies has yet. Touches of one colour share
 //! no mobile body, so it makes no difference which of them is solved first, nor how many at once, nor by which thread.
 
+use super::look::Bounce;
 use super::rows::{IDLE, Rows};
 use super::touch::{FAR, Touch};
 use crate::lanes::{Eight, LANES};
@@ -27,14 +28,16 @@ pub(super) struct Block {
     pub(super) slip_on: Eight,
     pub(super) push: [Eight; 2],
     pub(super) grip: Eight,
-    /// At what speed each point is to part \[m/s\]: restitution of an impact, 0 without.
-    pub(super) part: [Eight; 2],
+    /// How fast each point is to part at least by the end of the sub-step \[m/s\].
+    pub(super) asked: [Eight; 2],
 }
 
 /// All blocks of a step, colour after colour.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Blocks {
     pub(super) blocks: Vec<Block>,
+    /// Restitution of each block; empty where no pair has any.
+    pub(super) bounces: Vec<Bounce>,
     /// Where each colour's blocks begin; one more closes the last.
     pub(super) begins: Vec<u32>,
     /// The block and lane of each touch.
@@ -73,6 +76,12 @@ impl Blocks {
         }
     }
 
+    /// Lays a touch out anew.
+    pub(super) fn set(&mut self, k: usize, touch: &Touch, rows: (u32, u32), keep: f64, band: f64) {
+        let (block, lane) = self.place[k];
+        self.blocks[block as usize].set(lane as usize, touch, rows, keep, band);
+    }
+
     /// Takes over the pushes of the touches.
     pub(super) fn renew(&mut self, touches: &[Touch]) {
         for (touch, (block, lane)) in touches.iter().zip(&self.place) {
@@ -81,6 +90,18 @@ impl Blocks {
                 block.push[k].0[lane] = touch.push[k];
             }
             block.grip.0[lane] = touch.grip;
+        }
+    }
+
+    /// Lays out the restitution of the touches, but of the lonely ones, which have impacts of their own.
+    pub(super) fn fill_bounces(&mut self, touches: &[Touch], lonely: &[u32]) {
+        self.bounces.clear();
+        self.bounces.resize(self.blocks.len(), Bounce::NONE);
+        let mut lonely = lonely.iter().peekable();
+        for (k, (touch, (block, lane))) in touches.iter().zip(&self.place).enumerate() {
+            if lonely.next_if(|at| **at as usize == k).is_none() {
+                self.bounces[*block as usize].set(*lane as usize, touch);
+            }
         }
     }
 
@@ -125,7 +146,7 @@ impl Block {
             slip_on: zero,
             push: [zero; 2],
             grip: zero,
-            part: [zero; 2],
+            asked: [zero; 2],
         }
     }
 

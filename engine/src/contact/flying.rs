@@ -58,10 +58,12 @@ impl Fliers {
             }
             let t = Vec2::new(touch.n.y, -touch.n.x);
             let p = touch.n * sum + t * touch.grip;
-            let twist = |lever: [f64; 2], along: f64| {
-                lever[0] * touch.push[0] + lever[1] * touch.push[1] + along * touch.grip
-            };
-            let ends = [(*row_a, -1.0, twist(touch.lever_a, touch.along_a)), (*row_b, 1.0, twist(touch.lever_b, touch.along_b))];
+            let twist =
+                |lever: [f64; 2], along: f64| lever[0] * touch.push[0] + lever[1] * touch.push[1] + along * touch.grip;
+            let ends = [
+                (*row_a, -1.0, twist(touch.lever_a, touch.along_a)),
+                (*row_b, 1.0, twist(touch.lever_b, touch.along_b)),
+            ];
             for (row, sign, twist) in ends {
                 let Some(k) = rows.mobile_of(row) else { continue };
                 let (row, carried) = (&rows.rows[row as usize].0, &mut self.fliers[k].carried);
@@ -82,7 +84,7 @@ impl Fliers {
         }
     }
 
-    /// A sub-step begins: gravity, drag and pushes act, and contacts as they did before.
+    /// A sub-step begins: gravity, drag and pushes act.
     pub(super) fn set_out(&mut self, rows: &mut Rows, pulls: &[Pull], h: f64) {
         for (k, flier) in self.fliers.iter_mut().enumerate() {
             let row = &mut rows.rows[IDLE + k].0;
@@ -107,9 +109,7 @@ impl Fliers {
                     flier.way = [way.x, way.y, omega * angular.reach + pull.alpha * angular.fall];
                 }
             }
-            for (at, q) in [VX, VZ, SPIN].into_iter().enumerate() {
-                row[q] = flier.free[at] + flier.carried[at];
-            }
+            (row[VX], row[VZ], row[SPIN]) = (flier.free[0], flier.free[1], flier.free[2]);
         }
     }
 

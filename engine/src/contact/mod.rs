@@ -13,30 +13,31 @@
 //! Bodies that nothing is near fly on exactly, in one go. A scene without contacts has no sub-steps.
 
 mod blocks;
+mod find;
 mod flying;
+mod look;
 mod rest;
 mod rows;
+mod settle;
 mod strike;
 mod sweep;
 mod touch;
 mod weights;
 
-use crate::advance::{advance_alone, frame_before, is_finite};
+use crate::advance::advance_alone;
 use crate::area::Vec2;
 use crate::bodies::Bodies;
-use crate::broad_phase::Sweeping;
-use crate::detect::manifold::Placed;
-use crate::exchange::PairKind;
-use crate::flight::{Path, Pull};
-use crate::plan::{ContactPlan, FlightPlan};
+use crate::flight::Pull;
+use crate::plan::ContactPlan;
 use crate::step::Hit;
 use crate::width::Width;
-use crate::world::{BodyId, World};
+use crate::world::World;
 use blocks::Blocks;
 use flying::Fliers;
+use look::{Look, Warm};
 use rest::{Effort, Rest, Settled};
-use rows::{IDLE, Rows, SPIN, TURN, VX, VZ, X, Z};
-use sweep::Sweep;
+use rows::Rows;
+use sweep::{Part, Sweep};
 use touch::Touch;
 
 /// Overlaps found at the start of a step are let go at this rate \[1/s\]: a fifth of them in a sixtieth of a second.
@@ -76,6 +77,8 @@ pub(crate) struct Contacts {
     before: Vec<Touch>,
     /// Pairs of bodies that may meet within the step.
     near: Vec<(u32, u32)>,
+    /// All that each rectangle sweeps over the step, from its least to its greatest coordinates.
+    swept: Vec<(Vec2, Vec2)>,
     /// What acts on each body over the step.
     pulls: Vec<Pull>,
     rows: Rows,
@@ -87,6 +90,8 @@ pub(crate) struct Contacts {
     patience: u32,
     /// Touches of bodies that touch no other.
     lonely: Vec<u32>,
+    /// What is left of an overlap after a step in which it may recover.
+    keep: f64,
     /// The hits of this step, the next to be told last.
     untold: Vec<Hit>,
 }
@@ -102,6 +107,7 @@ impl Contacts {
             touches: Vec::new(),
             before: Vec::new(),
             near: Vec::new(),
+            swept: Vec::new(),
             pulls: Vec::new(),
             rows: Rows::default(),
             of_touch: Vec::new(),
@@ -110,6 +116,7 @@ impl Contacts {
             rest: Rest::default(),
             patience: PATIENCE,
             lonely: Vec::new(),
+            keep: 0.0,
             untold: Vec::new(),
         }
     }
@@ -142,6 +149,8 @@ impl World {
             for _ in 0..contacts.plan.substeps {
                 contacts.substep(self, h);
             }
+            let Contacts { width, rows, blocks, band, .. } = contacts;
+            width.run(Part { rows: &mut rows.rows, blocks: &blocks.blocks, band: *band });
         }
         contacts.settle(self);
         self.fly_alone(contacts);
@@ -188,69 +197,14 @@ impl World {
 }
 
 impl Contacts {
-    /// What acts on each body over the step: gravity, drag, pushes. Empty when nothing acts on any.
-    fn pull(&mut self, world: &World) {
-        self.pulls.clear();
-        if world.plan.flight == FlightPlan::Free && world.pushes.is_empty() {
-            return;
-        }
-        let (a, drag) = match world.plan.flight {
-            FlightPlan::Free => (Vec2::zeros(), (0.0, 0.0)),
-            FlightPlan::Forced { gravity, drag, .. } => (gravity, drag),
-        };
-        let fixed = Pull::NONE;
-        let mobile = Pull { a, alpha: 0.0, drag };
-        let of = |body: usize| if world.bodies.is_mobile(body) { mobile } else { fixed };
-        self.pulls.extend((0..world.bodies.len()).map(of));
-        for push in &world.pushes {
-            let (body, inertia) = (push.body as usize, world.bodies.inertia[push.body as usize]);
-            self.pulls[body].a += push.force / inertia.mass;
-            self.pulls[body].alpha += push.torque / inertia.moment;
-        }
-    }
-
-    /// Finds all touches of the step, and what they remember of the last.
-    fn find(&mut self, world: &mut World) {
-        let World { plan, bodies, broad_phase, work, .. } = world;
-        let dt = plan.time_step;
-        self.near.clear();
-        let near = &mut self.near;
-        let sweeping = Sweeping { pulls: &self.pulls, time: dt };
-        broad_phase.visit_swept(bodies, &sweeping, work, |i, j, _| near.push((i as u32, j as u32)));
-        near.sort_unstable();
-        near.dedup();
-        core::mem::swap(&mut self.touches, &mut self.before);
-        self.touches.clear();
-        let earlier = |body: usize| frame_before(bodies, plan.flight, dt, body);
-        let mut last = self.before.iter().peekable();
-        for &(i, j) in &self.near {
-            let (i, j) = (i as usize, j as usize);
-            work.pairs_tested += 1;
-            let (one, two) = (Path::of(bodies, &self.pulls, i), Path::of(bodies, &self.pulls, j));
-            for rect_i in Placed::all(bodies, i) {
-                for rect_j in Placed::all(bodies, j) {
-                    work.axes_tested += 4;
-                    let key = (rect_i.index as u32, rect_j.index as u32);
-                    while last.next_if(|touch| touch.rects < key).is_some() {}
-                    let before = last.peek().filter(|touch| touch.rects == key);
-                    let margin = one.closing(&two, rect_i.rect.far(), rect_j.rect.far(), dt)
-                        + TOUCHING * rect_i.rect.half().min().min(rect_j.rect.half().min());
-                    let found = Touch::find(bodies, (rect_i, rect_j), margin, before.copied(), earlier);
-                    self.touches.extend(found);
-                }
-            }
-        }
-        work.pairs_listed += self.touches.len() as u64;
-    }
-
     /// Lays bodies and touches out for the solver.
     fn lay_out(&mut self, world: &World) {
         if self.touches.is_empty() {
             return;
         }
         self.rows.fill(&world.bodies, &world.movers.mobile, &self.touches, &mut self.of_touch);
-        let keep = libm::exp(-RECOVERY * world.plan.time_step);
-        self.blocks.fill(&self.touches, &self.of_touch, &self.rows, keep, self.band);
+        self.keep = libm::exp(-RECOVERY * world.plan.time_step);
+        self.blocks.fill(&self.touches, &self.of_touch, &self.rows, self.keep, self.band);
         self.lonely.clear();
         for (k, (a, b)) in self.of_touch.iter().enumerate() {
             let alone = |row: u32| self.rows.mobile_of(row).is_none_or(|at| self.rows.degree[at] == 1);
@@ -258,16 +212,26 @@ impl Contacts {
                 self.lonely.push(k as u32);
             }
         }
+        if self.plan.restitution {
+            self.blocks.fill_bounces(&self.touches, &self.lonely);
+        }
     }
 
     fn substep(&mut self, world: &mut World, h: f64) {
         self.strike(world, h);
+        self.look(h);
         self.fliers.set_out(&mut self.rows, &self.pulls, h);
         let pulled = world.plan.gravity().norm() * h;
         let fastest = self.fliers.fastest();
-        if fastest > QUIET * pulled {
+        let quiet = fastest <= QUIET * pulled;
+        if quiet && !self.plan.restitution {
+            self.fliers.renew(&mut self.rows);
+        } else {
+            self.width.run(Warm { rows: &mut self.rows.rows, blocks: &self.blocks.blocks });
+        }
+        if !quiet {
             for _ in 0..SWEEPS {
-                self.sweep(1.0 / h);
+                self.sweep();
                 world.work.touches_solved += self.touches.len() as u64;
             }
         }
@@ -281,7 +245,7 @@ impl Contacts {
         let still = fastest <= STILL * pulled && pulled > 0.0;
         let most = if still { self.patience.max(few) } else { few };
         let first = if still { FIRST.min(most) } else { most };
-        let Settled { mut rounds, left, enough } = self.settle_for(h, Effort { pulled, most: first });
+        let Settled { mut rounds, left, enough } = self.settle_for(Effort { pulled, most: first });
         if still && !enough {
             if left > UNBALANCED * pulled {
                 let pull = world.plan.gravity() * h;
@@ -290,73 +254,35 @@ impl Contacts {
                 self.fliers.renew(&mut self.rows);
                 self.blocks.renew(&self.touches);
             }
-            let more = self.settle_for(h, Effort { pulled, most });
+            let more = self.settle_for(Effort { pulled, most });
             self.patience = if more.enough { PATIENCE } else { (most / 2).max(FIRST) };
             rounds += more.rounds;
         }
         world.work.touches_solved += u64::from(rounds) * self.touches.len() as u64;
     }
 
-    fn settle_for(&mut self, h: f64, effort: Effort) -> Settled {
+    fn settle_for(&mut self, effort: Effort) -> Settled {
         let (rows, blocks) = (&mut self.rows, &mut self.blocks.blocks);
-        self.rest.settle(rows, blocks, self.width, (1.0 / h, self.band), effort)
+        self.rest.settle(rows, blocks, self.width, effort)
     }
 
-    fn sweep(&mut self, rate: f64) -> f64 {
+    /// What every point asks for in the sub-step.
+    fn look(&mut self, h: f64) {
+        let Contacts { width, rows, blocks: Blocks { blocks, bounces, .. }, band, .. } = self;
+        let rows = &rows.rows;
+        if self.plan.restitution {
+            width.run(Look::<true> { rows, blocks, bounces, h, band: *band });
+        } else {
+            width.run(Look::<false> { rows, blocks, bounces, h, band: *band });
+        }
+    }
+
+    fn sweep(&mut self) -> f64 {
         let (rows, blocks, band) = (&mut self.rows.rows[..], &mut self.blocks.blocks[..], self.band);
         if self.plan.friction {
-            self.width.run(Sweep::<true> { rows, blocks, rate, band })
+            self.width.run(Sweep::<true> { rows, blocks, band })
         } else {
-            self.width.run(Sweep::<false> { rows, blocks, rate, band })
+            self.width.run(Sweep::<false> { rows, blocks, band })
         }
-    }
-
-    /// Bodies take their places and motions; touches remember what they pushed.
-    fn settle(&mut self, world: &mut World) {
-        if self.touches.is_empty() {
-            return;
-        }
-        for (k, &body) in self.rows.mobile.iter().enumerate() {
-            let body = body as usize;
-            let row = &self.rows.rows[IDLE + k].0;
-            let bodies: &mut Bodies = &mut world.bodies;
-            bodies.shift(body, Vec2::new(row[X], row[Z]));
-            if row[TURN] != 0.0 {
-                bodies.turn(body, row[TURN]);
-            }
-            bodies.motion[body].v = Vec2::new(row[VX], row[VZ]);
-            bodies.motion[body].omega = row[SPIN];
-            if !is_finite(bodies, body) {
-                world.report_fault(body);
-            }
-        }
-        for (k, touch) in self.touches.iter_mut().enumerate() {
-            let (block, lane) = self.blocks.place[k];
-            let block = &self.blocks.blocks[block as usize];
-            for p in 0..2 {
-                touch.push[p] = block.push[p].0[lane as usize];
-            }
-            touch.grip = block.grip.0[lane as usize];
-            let pressed = touch.push[0] + touch.push[1] > 0.0;
-            let was_open = touch.gap[0].min(touch.gap[1]) > self.band;
-            if pressed && !touch.touching && was_open && self.lonely.binary_search(&(k as u32)).is_err() {
-                let (a, b) = (touch.a.min(touch.b), touch.a.max(touch.b));
-                let kind = PairKind::of(world.bodies.role[a as usize], world.bodies.role[b as usize]);
-                world.work.count_exchange(kind);
-                self.untold.push(Hit {
-                    iteration: world.iteration,
-                    a: BodyId(a),
-                    b: BodyId(b),
-                    point: touch.middle + world.plan.origin,
-                    normal: touch.n,
-                    depth: 0.0,
-                    kind,
-                });
-            }
-            touch.touching = pressed;
-        }
-        self.untold.sort_by_key(|hit| (hit.a, hit.b));
-        self.untold.reverse();
-        world.collisions += self.untold.len() as u64;
     }
 }

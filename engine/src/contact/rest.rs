@@ -10,7 +10,7 @@
 
 use super::blocks::Block;
 use super::rows::{INVERSE_MASS, INVERSE_MOMENT, Row, Rows, SPIN, VX, VZ};
-use super::sweep::{asked, Lanes, Response, gather, gaps, scatter};
+use super::sweep::{Arms, Lanes, Response, gather, scatter};
 use crate::lanes::{Eight, LANES};
 use crate::width::{Width, Work};
 
@@ -57,7 +57,6 @@ pub(super) struct Guess {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Rest {
     guesses: Vec<Guess>,
-    asked: Vec<[Eight; 2]>,
     /// Motions at the present guess, at the last one, and beyond both.
     now: Vec<Row>,
     last: Vec<Row>,
@@ -70,16 +69,9 @@ const SHARED_MOMENT: usize = 4;
 
 impl Rest {
     /// Improves all touches until they are settled; gives how many rounds it took.
-    pub(super) fn settle(
-        &mut self,
-        rows: &mut Rows,
-        blocks: &mut [Block],
-        width: Width,
-        (rate, band): (f64, f64),
-        effort: Effort,
-    ) -> Settled {
+    pub(super) fn settle(&mut self, rows: &mut Rows, blocks: &mut [Block], width: Width, effort: Effort) -> Settled {
         let settled = effort.settled(blocks.len() * LANES);
-        self.begin(rows, blocks, Eight::all(rate), Eight::all(band));
+        self.begin(rows, blocks);
         let (mut momentum, mut before) = (1.0_f64, f64::INFINITY);
         let (mut rounds, mut left) = (0, 0.0);
         while rounds < effort.most {
@@ -87,9 +79,8 @@ impl Rest {
             let next = 0.5 * (1.0 + (1.0 + 4.0 * momentum * momentum).sqrt());
             let share = (momentum - 1.0) / next;
             self.extrapolate(share);
-            let Rest { guesses, asked, now, beyond, .. } = self;
-            let (change, back) =
-                width.run(Round { guesses, asked, blocks, from: beyond, to: now, share: Eight::all(share) });
+            let Rest { guesses, now, beyond, .. } = self;
+            let (change, back) = width.run(Round { guesses, blocks, from: beyond, to: now, share: Eight::all(share) });
             let astray = back > 0.0 || change > before;
             (before, left) = (change, change);
             momentum = if astray { 1.0 } else { next };
@@ -101,15 +92,11 @@ impl Rest {
         Settled { rounds, left, enough: left <= settled }
     }
 
-    fn begin(&mut self, rows: &Rows, blocks: &[Block], rate: Eight, band: Eight) {
+    fn begin(&mut self, rows: &Rows, blocks: &[Block]) {
         self.guesses.clear();
-        self.asked.clear();
         for block in blocks {
             let x = [block.push[0], block.push[1], block.grip];
             self.guesses.push(Guess { x, last: x });
-            let (a, b) = (gather(&rows.rows, &block.row_a), gather(&rows.rows, &block.row_b));
-            let gap = gaps(block, &a, &b);
-            self.asked.push([0, 1].map(|k| asked(block, k, gap[k], rate, band)));
         }
         self.now.clear();
         self.now.extend(rows.rows.iter().enumerate().map(|(k, row)| {
@@ -151,7 +138,6 @@ impl Rest {
 /// One round: every touch improved from the motions `from`, the changes added to `to`.
 struct Round<'a> {
     guesses: &'a mut [Guess],
-    asked: &'a [[Eight; 2]],
     blocks: &'a [Block],
     from: &'a [Row],
     to: &'a mut [Row],
@@ -165,12 +151,13 @@ impl Work for Round<'_> {
     #[inline(always)]
     fn run(self) -> (f64, f64) {
         let (mut most, mut back) = (Eight::ZERO, Eight::ZERO);
-        for ((block, guess), asked) in self.blocks.iter().zip(self.guesses).zip(self.asked) {
+        for (block, guess) in self.blocks.iter().zip(self.guesses) {
             let (a, b) = (gather(self.from, &block.row_a), gather(self.from, &block.row_b));
-            let shared = Response::with(block, (a[SHARED_MASS], a[SHARED_MOMENT]), (b[SHARED_MASS], b[SHARED_MOMENT]));
-            let from: [Eight; 3] =
-                core::array::from_fn(|k| guess.x[k] + self.share * (guess.x[k] - guess.last[k]));
-            let (x, change) = improve(block, asked, &shared, &a, &b, &from);
+            let arms =
+                Arms { lever_a: block.lever_a, lever_b: block.lever_b, along_a: block.along_a, along_b: block.along_b };
+            let shared = Response::with(&arms, (a[SHARED_MASS], a[SHARED_MOMENT]), (b[SHARED_MASS], b[SHARED_MOMENT]));
+            let from: [Eight; 3] = core::array::from_fn(|k| guess.x[k] + self.share * (guess.x[k] - guess.last[k]));
+            let (x, change) = improve(block, &shared, &a, &b, &from);
             let step: [Eight; 3] = core::array::from_fn(|k| x[k] - from[k]);
             for k in 0..3 {
                 back = back - change[k] * (x[k] - guess.x[k]);
@@ -185,19 +172,12 @@ impl Work for Round<'_> {
 
 /// Better pushes and friction, seeing the motions as they are; and the changes as velocities.
 #[inline(always)]
-fn improve(
-    block: &Block,
-    asked: &[Eight; 2],
-    shared: &Response,
-    a: &Lanes,
-    b: &Lanes,
-    from: &[Eight; 3],
-) -> ([Eight; 3], [Eight; 3]) {
+fn improve(block: &Block, shared: &Response, a: &Lanes, b: &Lanes, from: &[Eight; 3]) -> ([Eight; 3], [Eight; 3]) {
     let (ux, uz) = (b[VX] - a[VX], b[VZ] - a[VZ]);
     let along_n = block.nx * ux + block.nz * uz;
     let u = |k: usize| along_n + block.lever_b[k] * b[SPIN] - block.lever_a[k] * a[SPIN];
-    let q1 = u(0) - asked[0] - (shared.k[0] * from[0] + shared.across * from[1]);
-    let q2 = u(1) - asked[1] - (shared.across * from[0] + shared.k[1] * from[1]);
+    let q1 = u(0) - block.asked[0] - (shared.k[0] * from[0] + shared.across * from[1]);
+    let q2 = u(1) - block.asked[1] - (shared.across * from[0] + shared.k[1] * from[1]);
     let [x1, x2] = shared.complement([q1, q2]);
     let mass = a[SHARED_MASS] + b[SHARED_MASS];
     let k = mass + a[SHARED_MOMENT] * block.along_a * block.along_a + b[SHARED_MOMENT] * block.along_b * block.along_b;

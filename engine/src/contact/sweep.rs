@@ -1,14 +1,9 @@
 //! A sweep over all touches: each is solved exactly, with the motions its bodies have by then (block Gauss–Seidel).
 //!
-//! A touch has two points and one friction between them. Where they are (as linear functions of how far the bodies have come
-//! since the step began) decides what they ask:
-//!
-//! - in each other: first they are moved apart, by the least displacements weighted by mass; no velocity comes of it;
-//! - touching: u ≥ `part` (0, or what restitution asks), with push ≥ 0 and one of the two exact;
-//! - open: u ≥ −gap/h, so that they just come to touch.
-//!
-//! The two pushes are the exact solution of the 2×2 complementarity problem, all cases computed side by side and the right one
-//! picked; friction is clamped to the cone of the pushes so far.
+//! A touch has two points and one friction between them. Where points are in each other, first the bodies are moved apart, by
+//! the least displacements weighted by mass; no velocity comes of it. Then friction is clamped to the cone of the pushes so far,
+//! and the pushes are solved: u ≥ what the point asks ([`super::look`]), push ≥ 0, and one of the two exact. That 2×2
+//! complementarity problem is solved in closed form, all cases side by side and the right one picked.
 
 use super::blocks::Block;
 use super::rows::{INVERSE_MASS, INVERSE_MOMENT, Row, SPIN, TURN, VX, VZ, X, Z};
@@ -19,8 +14,6 @@ use crate::width::Work;
 pub(super) struct Sweep<'a, const FRICTION: bool> {
     pub(super) rows: &'a mut [Row],
     pub(super) blocks: &'a mut [Block],
-    /// 1/h \[1/s\].
-    pub(super) rate: f64,
     /// Gaps and depths up to this are none \[m\].
     pub(super) band: f64,
 }
@@ -34,14 +27,15 @@ impl<const FRICTION: bool> Work for Sweep<'_, FRICTION> {
         let mut most = Eight::ZERO;
         for block in self.blocks {
             let (mut a, mut b) = (gather(self.rows, &block.row_a), gather(self.rows, &block.row_b));
-            let response = Response::of(block, &a, &b);
+            let arms = Arms::of(block, &a, &b);
+            let response = Response::of(&arms, &a, &b);
             let gap = gaps(block, &a, &b);
             let band = Eight::all(self.band);
-            let gap = part_overlap(block, &mut a, &mut b, &response, gap, band);
+            part_overlap(block, &arms, (&mut a, &mut b), &response, gap, band);
             if FRICTION {
-                most = most.max(rub(block, &mut a, &mut b));
+                most = most.max(rub(block, &arms, &mut a, &mut b));
             }
-            most = most.max(press(block, &mut a, &mut b, &response, gap, (Eight::all(self.rate), band)));
+            most = most.max(press(block, &arms, (&mut a, &mut b), &response));
             scatter(self.rows, &block.row_a, a);
             scatter(self.rows, &block.row_b, b);
         }
@@ -49,7 +43,56 @@ impl<const FRICTION: bool> Work for Sweep<'_, FRICTION> {
     }
 }
 
+/// Bodies that are in each other are moved apart, once round; velocities stay.
+pub(super) struct Part<'a> {
+    pub(super) rows: &'a mut [Row],
+    pub(super) blocks: &'a [Block],
+    pub(super) band: f64,
+}
+
+impl Work for Part<'_> {
+    type Out = ();
+
+    #[inline(always)]
+    fn run(self) {
+        for block in self.blocks {
+            let (mut a, mut b) = (gather(self.rows, &block.row_a), gather(self.rows, &block.row_b));
+            let arms = Arms::of(block, &a, &b);
+            let response = Response::of(&arms, &a, &b);
+            let gap = gaps(block, &a, &b);
+            part_overlap(block, &arms, (&mut a, &mut b), &response, gap, Eight::all(self.band));
+            scatter(self.rows, &block.row_a, a);
+            scatter(self.rows, &block.row_b, b);
+        }
+    }
+}
+
 pub(super) type Lanes = [Eight; LANES];
+
+/// The levers of a block by now: the bodies may have slipped past each other since the step began, and both levers must lead
+/// to the same place, for angular momentum to be kept to the last digit.
+pub(super) struct Arms {
+    pub(super) lever_a: [Eight; 2],
+    pub(super) lever_b: [Eight; 2],
+    pub(super) along_a: Eight,
+    pub(super) along_b: Eight,
+}
+
+impl Arms {
+    #[inline(always)]
+    pub(super) fn of(block: &Block, a: &Lanes, b: &Lanes) -> Arms {
+        let (dx, dz) = (b[X] - a[X], b[Z] - a[Z]);
+        let half = Eight::all(0.5);
+        let apart = (block.nx * dx + block.nz * dz) * half;
+        let slipped = (block.nz * dx - block.nx * dz) * half;
+        Arms {
+            lever_a: block.lever_a.map(|lever| lever + slipped),
+            lever_b: block.lever_b.map(|lever| lever - slipped),
+            along_a: block.along_a - apart,
+            along_b: block.along_b + apart,
+        }
+    }
+}
 
 /// How velocities at the two points answer pushes there.
 pub(super) struct Response {
@@ -62,15 +105,15 @@ pub(super) struct Response {
 
 impl Response {
     #[inline(always)]
-    fn of(block: &Block, a: &Lanes, b: &Lanes) -> Response {
-        Response::with(block, (a[INVERSE_MASS], a[INVERSE_MOMENT]), (b[INVERSE_MASS], b[INVERSE_MOMENT]))
+    fn of(arms: &Arms, a: &Lanes, b: &Lanes) -> Response {
+        Response::with(arms, (a[INVERSE_MASS], a[INVERSE_MOMENT]), (b[INVERSE_MASS], b[INVERSE_MOMENT]))
     }
 
     /// The response of bodies with these inverse masses and moments.
     #[inline(always)]
-    pub(super) fn with(block: &Block, (mass_a, turn_a): (Eight, Eight), (mass_b, turn_b): (Eight, Eight)) -> Response {
+    pub(super) fn with(arms: &Arms, (mass_a, turn_a): (Eight, Eight), (mass_b, turn_b): (Eight, Eight)) -> Response {
         let mass = mass_a + mass_b;
-        let ([a1, a2], [b1, b2]) = (block.lever_a, block.lever_b);
+        let ([a1, a2], [b1, b2]) = (arms.lever_a, arms.lever_b);
         let (ta1, tb1) = (turn_a * a1, turn_b * b1);
         let k1 = mass + ta1 * a1 + tb1 * b1;
         let k2 = mass + turn_a * a2 * a2 + turn_b * b2 * b2;
@@ -112,28 +155,34 @@ pub(super) fn gaps(block: &Block, a: &Lanes, b: &Lanes) -> [Eight; 2] {
 
 /// Moves bodies apart where they are deeper in each other than they may be by the end of the step.
 #[inline(always)]
-fn part_overlap(block: &Block, a: &mut Lanes, b: &mut Lanes, response: &Response, gap: [Eight; 2], band: Eight) -> [Eight; 2] {
+fn part_overlap(
+    block: &Block,
+    arms: &Arms,
+    (a, b): (&mut Lanes, &mut Lanes),
+    response: &Response,
+    gap: [Eight; 2],
+    band: Eight,
+) {
     let too_deep = [gap[0] - block.least[0] + band, gap[1] - block.least[1] + band];
     let [x1, x2] = response.complement(too_deep);
     let sum = x1 + x2;
     let (px, pz) = (block.nx * sum, block.nz * sum);
     a[X] = a[X] - a[INVERSE_MASS] * px;
     a[Z] = a[Z] - a[INVERSE_MASS] * pz;
-    a[TURN] = a[TURN] - a[INVERSE_MOMENT] * (block.lever_a[0] * x1 + block.lever_a[1] * x2);
+    a[TURN] = a[TURN] - a[INVERSE_MOMENT] * (arms.lever_a[0] * x1 + arms.lever_a[1] * x2);
     b[X] = b[X] + b[INVERSE_MASS] * px;
     b[Z] = b[Z] + b[INVERSE_MASS] * pz;
-    b[TURN] = b[TURN] + b[INVERSE_MOMENT] * (block.lever_b[0] * x1 + block.lever_b[1] * x2);
-    [gap[0] + response.k[0] * x1 + response.across * x2, gap[1] + response.across * x1 + response.k[1] * x2]
+    b[TURN] = b[TURN] + b[INVERSE_MOMENT] * (arms.lever_b[0] * x1 + arms.lever_b[1] * x2);
 }
 
 /// Friction: against the slip, as far as the pushes hold it.
 #[inline(always)]
-fn rub(block: &mut Block, a: &mut Lanes, b: &mut Lanes) -> Eight {
+fn rub(block: &mut Block, arms: &Arms, a: &mut Lanes, b: &mut Lanes) -> Eight {
     let mass = a[INVERSE_MASS] + b[INVERSE_MASS];
-    let (turn_a, turn_b) = (a[INVERSE_MOMENT] * block.along_a, b[INVERSE_MOMENT] * block.along_b);
-    let k = mass + turn_a * block.along_a + turn_b * block.along_b;
+    let (turn_a, turn_b) = (a[INVERSE_MOMENT] * arms.along_a, b[INVERSE_MOMENT] * arms.along_b);
+    let k = mass + turn_a * arms.along_a + turn_b * arms.along_b;
     let (ux, uz) = (b[VX] - a[VX], b[VZ] - a[VZ]);
-    let slip = block.nz * ux - block.nx * uz + block.along_b * b[SPIN] - block.along_a * a[SPIN];
+    let slip = block.nz * ux - block.nx * uz + arms.along_b * b[SPIN] - arms.along_a * a[SPIN];
     let most = block.friction * (block.push[0] + block.push[1]);
     let grip = (block.grip - slip * k.inverse()).min(most).max(-most);
     let more = grip - block.grip;
@@ -148,30 +197,15 @@ fn rub(block: &mut Block, a: &mut Lanes, b: &mut Lanes) -> Eight {
     (k * more).abs()
 }
 
-/// How fast a point is to part at least: as restitution asks, or so slowly that an open one just comes to touch.
-#[inline(always)]
-pub(super) fn asked(block: &Block, k: usize, gap: Eight, rate: Eight, band: Eight) -> Eight {
-    let open = -((gap - band).max(Eight::ZERO) * rate);
-    (-block.part[k]).pick(open, block.part[k])
-}
-
 /// The pushes at both points.
 #[inline(always)]
-fn press(
-    block: &mut Block,
-    a: &mut Lanes,
-    b: &mut Lanes,
-    response: &Response,
-    gap: [Eight; 2],
-    (rate, band): (Eight, Eight),
-) -> Eight {
+fn press(block: &mut Block, arms: &Arms, (a, b): (&mut Lanes, &mut Lanes), response: &Response) -> Eight {
     let along_n = block.nx * (b[VX] - a[VX]) + block.nz * (b[VZ] - a[VZ]);
-    let u = |k: usize| along_n + block.lever_b[k] * b[SPIN] - block.lever_a[k] * a[SPIN];
-    let asked = |k: usize| asked(block, k, gap[k], rate, band);
+    let u = |k: usize| along_n + arms.lever_b[k] * b[SPIN] - arms.lever_a[k] * a[SPIN];
     let [p1, p2] = block.push;
     // Without the pushes so far.
-    let q1 = u(0) - asked(0) - (response.k[0] * p1 + response.across * p2);
-    let q2 = u(1) - asked(1) - (response.across * p1 + response.k[1] * p2);
+    let q1 = u(0) - block.asked[0] - (response.k[0] * p1 + response.across * p2);
+    let q2 = u(1) - block.asked[1] - (response.across * p1 + response.k[1] * p2);
     let [x1, x2] = response.complement([q1, q2]);
     let (d1, d2) = (x1 - p1, x2 - p2);
     block.push = [x1, x2];
@@ -179,11 +213,29 @@ fn press(
     let (px, pz) = (block.nx * sum, block.nz * sum);
     a[VX] = a[VX] - a[INVERSE_MASS] * px;
     a[VZ] = a[VZ] - a[INVERSE_MASS] * pz;
-    a[SPIN] = a[SPIN] - a[INVERSE_MOMENT] * (block.lever_a[0] * d1 + block.lever_a[1] * d2);
+    a[SPIN] = a[SPIN] - a[INVERSE_MOMENT] * (arms.lever_a[0] * d1 + arms.lever_a[1] * d2);
     b[VX] = b[VX] + b[INVERSE_MASS] * px;
     b[VZ] = b[VZ] + b[INVERSE_MASS] * pz;
-    b[SPIN] = b[SPIN] + b[INVERSE_MOMENT] * (block.lever_b[0] * d1 + block.lever_b[1] * d2);
+    b[SPIN] = b[SPIN] + b[INVERSE_MOMENT] * (arms.lever_b[0] * d1 + arms.lever_b[1] * d2);
     (response.k[0] * d1).abs().max((response.k[1] * d2).abs())
+}
+
+/// Pushes and friction as they stand, given to the bodies once more.
+#[inline(always)]
+pub(super) fn push_again(rows: &mut [Row], block: &Block) {
+    let (mut a, mut b) = (gather(rows, &block.row_a), gather(rows, &block.row_b));
+    let arms = Arms::of(block, &a, &b);
+    let [p1, p2] = block.push;
+    let (sum, pt) = (p1 + p2, block.grip);
+    let (px, pz) = (block.nx * sum + block.nz * pt, block.nz * sum - block.nx * pt);
+    a[VX] = a[VX] - a[INVERSE_MASS] * px;
+    a[VZ] = a[VZ] - a[INVERSE_MASS] * pz;
+    a[SPIN] = a[SPIN] - a[INVERSE_MOMENT] * (arms.lever_a[0] * p1 + arms.lever_a[1] * p2 + arms.along_a * pt);
+    b[VX] = b[VX] + b[INVERSE_MASS] * px;
+    b[VZ] = b[VZ] + b[INVERSE_MASS] * pz;
+    b[SPIN] = b[SPIN] + b[INVERSE_MOMENT] * (arms.lever_b[0] * p1 + arms.lever_b[1] * p2 + arms.along_b * pt);
+    scatter(rows, &block.row_a, a);
+    scatter(rows, &block.row_b, b);
 }
 
 #[inline(always)]

@@ -7,6 +7,7 @@
 //!              a
 //! ```
 
+use super::rows::{SPIN, TURN, VX, VZ, X, Z};
 use crate::area::Vec2;
 use crate::bodies::Bodies;
 use crate::detect::Face;
@@ -14,6 +15,7 @@ use crate::detect::manifold::{Manifold, Placed, edge_along};
 use crate::detect::near::{Before, meet};
 use crate::exchange::impact::Surface;
 use crate::frame::{Frame, perp};
+use crate::lanes::LANES;
 
 /// A point that is not there: further away than any that is.
 pub(super) const FAR: f64 = 1e30;
@@ -150,6 +152,28 @@ impl Touch {
                 self.coming[k] = last.coming[at];
             }
         }
+    }
+
+    /// The gap at a point, and how fast it opens, for two bodies that have come so far since the step began.
+    pub(super) fn state(&self, p: usize, a: &[f64; LANES], b: &[f64; LANES]) -> (f64, f64) {
+        let along = |x: usize, z: usize| self.n.x * (b[x] - a[x]) + self.n.y * (b[z] - a[z]);
+        let gap = self.gap[p] + along(X, Z) + self.lever_b[p] * b[TURN] - self.lever_a[p] * a[TURN];
+        (gap, along(VX, VZ) + self.lever_b[p] * b[SPIN] - self.lever_a[p] * a[SPIN])
+    }
+
+    /// Makes gaps, levers and slip found just now count from the start of the step.
+    pub(super) fn count_from(&mut self, a: &[f64; LANES], b: &[f64; LANES]) {
+        let (dx, dz) = (b[X] - a[X], b[Z] - a[Z]);
+        let apart = self.n.x * dx + self.n.y * dz;
+        let slipped = self.n.y * dx - self.n.x * dz;
+        for p in 0..2 {
+            self.gap[p] -= apart + self.lever_b[p] * b[TURN] - self.lever_a[p] * a[TURN];
+            self.lever_a[p] -= 0.5 * slipped;
+            self.lever_b[p] += 0.5 * slipped;
+        }
+        self.along_a += 0.5 * apart;
+        self.along_b -= 0.5 * apart;
+        self.slip = (self.slip.0 + slipped, self.slip.1 + slipped);
     }
 
     /// What decides how the world goes on, for its digest.
