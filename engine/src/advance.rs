@@ -91,10 +91,11 @@ pub(crate) fn advance_alone(
     work: &mut Work,
 ) -> Option<usize> {
     let mut lost = None;
-    let (linear, angular) = match flight {
-        FlightPlan::Free => (Flight::new(0.0, dt), Flight::new(0.0, dt)),
-        FlightPlan::Forced { linear, angular, .. } => (linear, angular),
+    let drag = match flight {
+        FlightPlan::Free => (0.0, 0.0),
+        FlightPlan::Forced { drag, .. } => drag,
     };
+    let (linear, angular) = (Flight::new(drag.0, dt), Flight::new(drag.1, dt));
     for &body in &movers.mobile {
         if touched(body) {
             continue;

