@@ -2,6 +2,7 @@
 //! and what must hold of every scene.
 
 mod command;
+mod contact;
 mod exact;
 mod harness;
 mod ledger;
