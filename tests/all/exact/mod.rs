@@ -40,7 +40,7 @@ mod friction;
 mod galperin;
 mod gas;
 mod inputs;
-mod kit;
+pub(crate) mod kit;
 mod numbers;
 mod overlaps;
 mod sequences;
