@@ -10,5 +10,6 @@ mod metamorphic;
 mod project;
 mod report;
 mod snapshots;
+mod stability;
 mod support;
 mod tidy;
