@@ -79,6 +79,12 @@ impl Blocks {
         self.blocks[block as usize].set(lane as usize, touch, rows, keep, band);
     }
 
+    /// A point of a touch asks for nothing in this sub-step.
+    pub(super) fn ask_nothing(&mut self, k: usize, p: usize) {
+        let (block, lane) = self.place[k];
+        self.blocks[block as usize].asked[p].0[lane as usize] = -FAR;
+    }
+
     /// Takes over the pushes of the touches.
     pub(super) fn renew(&mut self, touches: &[Touch]) {
         for (touch, (block, lane)) in touches.iter().zip(&self.place) {

@@ -97,6 +97,8 @@ pub(crate) struct Contacts {
     lonely: Vec<u32>,
     /// Touches with restitution among the others.
     crowd: Vec<u32>,
+    /// Touches of which it is known that they do not meet within the sub-step.
+    clear: Vec<u32>,
     /// What is left of an overlap after a step in which it may recover.
     keep: f64,
     /// The hits of this step, the next to be told last.
@@ -124,6 +126,7 @@ impl Contacts {
             patience: PATIENCE,
             lonely: Vec::new(),
             crowd: Vec::new(),
+            clear: Vec::new(),
             keep: 0.0,
             untold: Vec::new(),
         }
@@ -233,6 +236,7 @@ impl Contacts {
     fn substep(&mut self, world: &mut World, h: f64) {
         self.strike(world, h);
         self.look(h);
+        self.leave_clear();
         self.fliers.set_out(&mut self.rows, &self.pulls, h);
         let pulled = world.plan.gravity().norm() * h;
         let fastest = self.fliers.fastest();

@@ -29,6 +29,7 @@ const RESTS: f64 = 2.0;
 impl Contacts {
     /// Lets bodies that touch no other fly to their impacts within the sub-step, and exchange there.
     pub(super) fn strike(&mut self, world: &mut World, h: f64) {
+        self.clear.clear();
         for at in 0..self.lonely.len() {
             let k = self.lonely[at] as usize;
             let mut left = h;
@@ -54,6 +55,18 @@ impl Contacts {
             }
             if !any {
                 break;
+            }
+        }
+    }
+
+    /// Pairs of which it is known that they do not meet within the sub-step ask for nothing, unless they touch already.
+    pub(super) fn leave_clear(&mut self) {
+        for &k in &self.clear {
+            let (row_a, row_b) = self.of_touch[k as usize];
+            let (a, b) = (&self.rows.rows[row_a as usize].0, &self.rows.rows[row_b as usize].0);
+            let touch = &self.touches[k as usize];
+            for p in (0..2).filter(|p| touch.state(*p, a, b).0 > self.band) {
+                self.blocks.ask_nothing(k as usize, p);
             }
         }
     }
@@ -173,7 +186,10 @@ impl Contacts {
     fn strike_once(&mut self, world: &mut World, k: usize, flies: [bool; 2], (left, h): (f64, f64)) -> Option<f64> {
         let touch = self.touches[k];
         let paths = self.paths(world, k, flies);
-        let (time, manifold) = meeting(world, &touch, &paths, left)?;
+        let Some((time, manifold)) = meeting(world, &touch, &paths, left) else {
+            self.clear.push(k as u32);
+            return None;
+        };
         let (row_a, row_b) = self.of_touch[k];
         for (row, (path, flies)) in [row_a, row_b].into_iter().zip(paths.iter().zip(flies)) {
             if flies {

@@ -10,6 +10,9 @@ use super::rows::{INVERSE_MASS, INVERSE_MOMENT, Row, SPIN, TURN, VX, VZ, X, Z};
 use crate::lanes::{Eight, LANES, transpose};
 use crate::width::Work;
 
+/// A determinant below this share of its terms is none.
+const SAME: f64 = 1e-12;
+
 /// One sweep.
 pub(super) struct Sweep<'a, const FRICTION: bool> {
     pub(super) rows: &'a mut [Row],
@@ -32,10 +35,10 @@ impl<const FRICTION: bool> Work for Sweep<'_, FRICTION> {
             let gap = gaps(block, &a, &b);
             let band = Eight::all(self.band);
             part_overlap(block, &arms, (&mut a, &mut b), &response, gap, band);
+            most = most.max(press(block, &arms, (&mut a, &mut b), &response));
             if FRICTION {
                 most = most.max(rub(block, &arms, &mut a, &mut b));
             }
-            most = most.max(press(block, &arms, (&mut a, &mut b), &response));
             scatter(self.rows, &block.row_a, a);
             scatter(self.rows, &block.row_b, b);
         }
@@ -118,7 +121,8 @@ impl Response {
         let k1 = mass + ta1 * a1 + tb1 * b1;
         let k2 = mass + turn_a * a2 * a2 + turn_b * b2 * b2;
         let across = mass + ta1 * a2 + tb1 * b2;
-        let inverse = (k1 * k2 - across * across).inverse();
+        // Two points with the same levers answer alike: what is then left of the determinant is rounding.
+        let inverse = (k1 * k2 - across * across).max(k1 * k2 * Eight::all(SAME)).inverse();
         Response { k: [k1, k2], across, inverse, alone: [k1.inverse(), k2.inverse()] }
     }
 

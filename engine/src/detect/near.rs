@@ -18,6 +18,9 @@ const LOYALTY: f64 = 1e-3;
 /// Overlaps deeper than this share of the smaller rectangle go apart the way they came; shallower ones the least way.
 const DEEP: f64 = 0.05;
 
+/// Two points closer together than this share of the smaller rectangle are one.
+const ONE: f64 = 1e-6;
+
 /// How two rectangles touched a step ago.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Before {
@@ -103,7 +106,7 @@ fn at_face(reference: Placed, owner: Placed, face: Face, margin: f64) -> Option<
     };
     let counts = |p: &Point| p.depth >= -margin && !beside(p);
     let small = reference.rect.half().min().min(owner.rect.half().min());
-    let one_point = (second.vertex - first.vertex).norm() <= 1e-9 * small;
+    let one_point = (second.vertex - first.vertex).norm() <= ONE * small;
     let (points, count) = match (counts(&first), counts(&second)) {
         (true, true) if !one_point => ([first, second], 2),
         (true, true) => ([first, second], 1),
