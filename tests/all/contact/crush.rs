@@ -121,6 +121,7 @@ fn close_and_open(seed: u64, friction: f64, steps_open: u32) {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "fifty cars: ten seconds in debug")]
 fn walls_close_on_fifty_cars_and_let_them_go() {
     close_and_open(1, 0.5, 60);
 }

@@ -5,7 +5,7 @@ use choque_engine::{Scene, World};
 
 use super::kit::{G, block, grounded, wall};
 
-/// The reference has hinged feet; a body with a real one may slip or hop. Observed: not yet.
+/// The reference has hinged feet; a body with a real one may slip or hop. Observed: −0.3 % at d/h 0.179, s/h 0.5; −2.9 % at 0.119, 0.75.
 const SPEED_OFF: f64 = 0.05;
 
 const COUNT: usize = 40;
@@ -43,8 +43,8 @@ fn speed(thickness: f64, gap: f64, time_step: f64) -> f64 {
 }
 
 #[track_caller]
-fn assert_speed(thickness: f64, gap: f64, expected: f64) {
-    let found = speed(thickness, gap, 1.0 / 480.0);
+fn assert_speed(thickness: f64, gap: f64, time_step: f64, expected: f64) {
+    let found = speed(thickness, gap, time_step);
     println!(
         "P13: d/h {thickness}, s/h {gap}: {found:.4} instead of {expected}: {:+.2} %",
         (found / expected - 1.0) * 100.0
@@ -53,13 +53,14 @@ fn assert_speed(thickness: f64, gap: f64, expected: f64) {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "forty dominoes for six seconds: ten seconds in debug")]
 fn p13_the_domino_wave_runs_at_its_speed() {
-    assert_speed(0.179, 0.5, 1.67835);
+    assert_speed(0.179, 0.5, 1.0 / 240.0, 1.67835);
 }
 
 /// Without the column for plates 1e-6 thick, which a stepper cannot see.
 #[test]
-#[cfg_attr(debug_assertions, ignore = "eleven rows of forty dominoes: a minute in debug")]
+#[cfg_attr(debug_assertions, ignore = "twelve rows of forty dominoes: a minute in debug")]
 fn p13_the_whole_table() {
     let gaps = [0.2, 0.3, 0.5, 0.75];
     let rows = [
@@ -69,7 +70,7 @@ fn p13_the_whole_table() {
     ];
     for (thickness, speeds) in rows {
         for (gap, expected) in gaps.into_iter().zip(speeds) {
-            assert_speed(thickness, gap, expected);
+            assert_speed(thickness, gap, 1.0 / 480.0, expected);
         }
     }
 }

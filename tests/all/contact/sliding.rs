@@ -5,10 +5,11 @@ use choque_engine::scene::Body;
 
 use super::kit::{DT, G, State, assert_first_order, course, floor, grounded, resting, steps, wall};
 
-/// A stepper is off by half a step of the speed it starts with, −v dt/2: this share more is allowed. Observed: not yet.
+/// A symplectic Euler stepper is off by half a step of the speed it starts with, −v dt/2: this share more is allowed. Observed at 1/60 s:
+/// P1 5e-6 m of 42 mm, P11 7e-6 of 17 mm, both falling at second order; P2 9e-14.
 const OF_SYMPLECTIC_EULER: f64 = 1.002;
 
-/// What a resting block may creep in 1000 s [m]. Observed: not yet.
+/// What a resting block may creep in 1000 s [m]. Observed: 3e-14.
 const CREEP: f64 = 1e-9;
 
 const TIME_STEPS: [f64; 3] = [1.0 / 60.0, 1.0 / 240.0, 1.0 / 1000.0];
