@@ -79,6 +79,21 @@ impl Blocks {
         self.blocks[block as usize].set(lane as usize, touch, rows, keep, band);
     }
 
+    /// Nothing is pushed any more.
+    pub(super) fn forget_pushes(&mut self) {
+        for block in &mut self.blocks {
+            block.push = [Eight::ZERO; 2];
+            block.grip = Eight::ZERO;
+        }
+    }
+
+    /// Whether a touch presses: it has done so in the sub-step before.
+    pub(super) fn presses(&self, k: usize) -> bool {
+        let (block, lane) = self.place[k];
+        let [one, two] = &self.blocks[block as usize].push;
+        one.0[lane as usize] + two.0[lane as usize] > 0.0
+    }
+
     /// A point of a touch asks for nothing in this sub-step.
     pub(super) fn ask_nothing(&mut self, k: usize, p: usize) {
         let (block, lane) = self.place[k];

@@ -12,6 +12,9 @@ use crate::frame::Frame;
 /// along; a greater one is an impact's, and acts from the start.
 const FORCEFUL: f64 = 2.0;
 
+/// What a fixed body can pass on of its speed, squared.
+const TWICE: f64 = 4.0;
+
 /// What a body in contact remembers over a sub-step.
 #[derive(Clone, Copy, Debug, Default)]
 struct Flier {
@@ -71,6 +74,31 @@ impl Fliers {
                 carried[1] += sign * row[INVERSE_MASS] * p.y;
                 carried[2] += sign * row[INVERSE_MOMENT] * twist;
             }
+        }
+    }
+
+    /// Whether contact has made more of the motions than it can: it takes energy, but for what moving fixed bodies give.
+    pub(super) fn gained(&self, rows: &Rows, reach: f64) -> bool {
+        let fixed = &rows.rows[IDLE + rows.mobile.len()..];
+        let square = |row: &[f64]| row[VX] * row[VX] + row[VZ] * row[VZ];
+        let driven = fixed.iter().map(|row| square(&row.0) + row.0[SPIN] * row.0[SPIN] * reach * reach).fold(0.0, f64::max);
+        let (mut free, mut now, mut fastest_free, mut fastest, mut given) = (0.0, 0.0, 0.0_f64, 0.0_f64, 0.0);
+        for (row, flier) in rows.rows[IDLE..].iter().zip(&self.fliers) {
+            let (row, [vx, vz, spin]) = (&row.0, flier.free);
+            let ((mass, moment), came) = ((1.0 / row[INVERSE_MASS], 1.0 / row[INVERSE_MOMENT]), vx * vx + vz * vz);
+            free += mass * came + moment * spin * spin;
+            now += mass * square(row) + moment * row[SPIN] * row[SPIN];
+            given += mass * driven;
+            fastest_free = fastest_free.max(came);
+            fastest = fastest.max(square(row));
+        }
+        now > free * (1.0 + 1e-12) + TWICE * given || fastest > TWICE * fastest_free.max(driven)
+    }
+
+    /// The motions of bodies on which no contact pushes.
+    pub(super) fn let_go(&self, rows: &mut Rows) {
+        for (row, flier) in rows.rows[IDLE..].iter_mut().zip(&self.fliers) {
+            [row.0[VX], row.0[VZ], row.0[SPIN]] = flier.free;
         }
     }
 

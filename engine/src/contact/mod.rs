@@ -48,6 +48,9 @@ const RECOVERY: f64 = 12.0;
 /// Sweeps over all touches in a sub-step.
 const SWEEPS: usize = 2;
 
+/// Sweeps where the pushes of the sub-step before were no help and all begins at nothing.
+const FRESH_SWEEPS: usize = 8;
+
 /// A scene in which no body is faster than this many times what gravity does in a sub-step is quiet: settled, not swept.
 const QUIET: f64 = 16.0;
 
@@ -99,6 +102,8 @@ pub(crate) struct Contacts {
     crowd: Vec<u32>,
     /// Touches of which it is known that they do not meet within the sub-step.
     clear: Vec<u32>,
+    /// How far a fixed body reaches from its centre at most \[m\].
+    reach: f64,
     /// What is left of an overlap after a step in which it may recover.
     keep: f64,
     /// The hits of this step, the next to be told last.
@@ -127,6 +132,10 @@ impl Contacts {
             lonely: Vec::new(),
             crowd: Vec::new(),
             clear: Vec::new(),
+            reach: (0..bodies.len())
+                .filter(|body| !bodies.is_mobile(*body))
+                .map(|body| bodies.reach(body))
+                .fold(0.0, f64::max),
             keep: 0.0,
             untold: Vec::new(),
         }
@@ -246,13 +255,18 @@ impl Contacts {
         } else {
             self.width.run(Warm { rows: &mut self.rows.rows, blocks: &self.blocks.blocks });
         }
-        if !quiet {
-            for _ in 0..SWEEPS {
-                self.sweep();
-                world.work.touches_solved += self.touches.len() as u64;
+        if quiet {
+            self.settle_touches(world, h, pulled, fastest);
+        } else {
+            self.sweep_touches(world, SWEEPS);
+            self.settle_touches(world, h, pulled, fastest);
+            // A jam has no solution: pushes grow without end, and do harm once it gives way.
+            if self.fliers.gained(&self.rows, self.reach) {
+                self.blocks.forget_pushes();
+                self.fliers.let_go(&mut self.rows);
+                self.sweep_touches(world, FRESH_SWEEPS);
             }
         }
-        self.settle_touches(world, h, pulled, fastest);
         self.fliers.arrive(&mut self.rows, &self.pulls, h);
     }
 
@@ -281,6 +295,13 @@ impl Contacts {
     fn settle_for(&mut self, effort: Effort) -> Settled {
         let (rows, blocks) = (&mut self.rows, &mut self.blocks.blocks);
         self.rest.settle(rows, blocks, self.width, effort)
+    }
+
+    fn sweep_touches(&mut self, world: &mut World, sweeps: usize) {
+        for _ in 0..sweeps {
+            self.sweep();
+        }
+        world.work.touches_solved += (sweeps * self.touches.len()) as u64;
     }
 
     /// What every point asks for in the sub-step.

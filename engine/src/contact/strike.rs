@@ -96,8 +96,12 @@ impl Contacts {
         self.exchange(world, k, (&manifold, &paths), h)
     }
 
-    /// Which points of a touch are reached within the sub-step, faster than what is no bounce.
+    /// Which points of a touch are reached within the sub-step, faster than what is no bounce. One that presses already is
+    /// not reached.
     fn come(&self, k: usize, pulled: f64, h: f64) -> [bool; 2] {
+        if self.blocks.presses(k) {
+            return [false; 2];
+        }
         let touch = &self.touches[k];
         let (row_a, row_b) = self.of_touch[k];
         let (a, b) = (&self.rows.rows[row_a as usize].0, &self.rows.rows[row_b as usize].0);
