@@ -81,7 +81,8 @@ impl Fliers {
     pub(super) fn gained(&self, rows: &Rows, reach: f64) -> bool {
         let fixed = &rows.rows[IDLE + rows.mobile.len()..];
         let square = |row: &[f64]| row[VX] * row[VX] + row[VZ] * row[VZ];
-        let driven = fixed.iter().map(|row| square(&row.0) + row.0[SPIN] * row.0[SPIN] * reach * reach).fold(0.0, f64::max);
+        let driven =
+            fixed.iter().map(|row| square(&row.0) + row.0[SPIN] * row.0[SPIN] * reach * reach).fold(0.0, f64::max);
         let (mut free, mut now, mut fastest_free, mut fastest, mut given) = (0.0, 0.0, 0.0_f64, 0.0_f64, 0.0);
         for (row, flier) in rows.rows[IDLE..].iter().zip(&self.fliers) {
             let (row, [vx, vz, spin]) = (&row.0, flier.free);

@@ -65,7 +65,7 @@ const FIRST: u32 = 24;
 const UNBALANCED: f64 = 1e-2;
 
 /// Touches to improve in a sub-step where little is to be improved.
-const BUDGET: u32 = 20_000;
+const BUDGET: u32 = 8_000;
 
 /// With so many touches or fewer they are found anew in every sub-step, for the sake of exactness.
 const A_FEW: usize = 128;
@@ -274,7 +274,14 @@ impl Contacts {
     fn settle_touches(&mut self, world: &mut World, h: f64, pulled: f64, fastest: f64) {
         let few = (BUDGET / self.touches.len() as u32).min(PATIENCE);
         let still = fastest <= STILL * pulled && pulled > 0.0;
-        let most = if still { self.patience.max(few) } else { few };
+        let from_rest = fastest == 0.0 && still;
+        let most = if from_rest {
+            PATIENCE
+        } else if still {
+            self.patience.max(few)
+        } else {
+            few
+        };
         let first = if still { FIRST.min(most) } else { most };
         let Settled { mut rounds, left, enough } = self.settle_for(Effort { pulled, most: first });
         if still && !enough {
@@ -286,7 +293,8 @@ impl Contacts {
                 self.blocks.renew(&self.touches);
             }
             let more = self.settle_for(Effort { pulled, most });
-            self.patience = if more.enough { PATIENCE } else { (most / 2).max(FIRST) };
+            self.patience =
+                if more.enough { (2 * self.patience).min(PATIENCE) } else { (self.patience / 2).max(FIRST) };
             rounds += more.rounds;
         }
         world.work.touches_solved += u64::from(rounds) * self.touches.len() as u64;
@@ -298,8 +306,8 @@ impl Contacts {
     }
 
     fn sweep_touches(&mut self, world: &mut World, sweeps: usize) {
-        for _ in 0..sweeps {
-            self.sweep();
+        for sweep in 0..sweeps {
+            self.sweep(sweep % 2 == 1);
         }
         world.work.touches_solved += (sweeps * self.touches.len()) as u64;
     }
@@ -310,12 +318,12 @@ impl Contacts {
         self.width.run(Look { rows, blocks, h, band: self.band });
     }
 
-    fn sweep(&mut self) -> f64 {
+    fn sweep(&mut self, back: bool) -> f64 {
         let (rows, blocks, band) = (&mut self.rows.rows[..], &mut self.blocks.blocks[..], self.band);
         if self.plan.friction {
-            self.width.run(Sweep::<true> { rows, blocks, band })
+            self.width.run(Sweep::<true> { rows, blocks, band, back })
         } else {
-            self.width.run(Sweep::<false> { rows, blocks, band })
+            self.width.run(Sweep::<false> { rows, blocks, band, back })
         }
     }
 }

@@ -19,6 +19,8 @@ pub(super) struct Sweep<'a, const FRICTION: bool> {
     pub(super) blocks: &'a mut [Block],
     /// Gaps and depths up to this are none \[m\].
     pub(super) band: f64,
+    /// From the last touch to the first: sweeps to and fro favour neither end of a pile.
+    pub(super) back: bool,
 }
 
 impl<const FRICTION: bool> Work for Sweep<'_, FRICTION> {
@@ -27,8 +29,10 @@ impl<const FRICTION: bool> Work for Sweep<'_, FRICTION> {
 
     #[inline(always)]
     fn run(self) -> f64 {
+        let count = self.blocks.len();
         let mut most = Eight::ZERO;
-        for block in self.blocks {
+        for at in 0..count {
+            let block = &mut self.blocks[if self.back { count - 1 - at } else { at }];
             let (mut a, mut b) = (gather(self.rows, &block.row_a), gather(self.rows, &block.row_b));
             let arms = Arms::of(block, &a, &b);
             let response = Response::of(&arms, &a, &b);
