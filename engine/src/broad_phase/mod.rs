@@ -5,14 +5,15 @@
 
 pub mod all_pairs;
 pub(crate) mod bounds;
+pub(crate) mod grid;
 mod sight;
 pub mod strips;
 
 use crate::bodies::{Bodies, Role};
 use crate::plan::BroadPhasePlan;
 use crate::work::Work;
+pub use sight::Sweeping;
 use sight::{Sight, Standing};
-pub use sight::{Sweeping, Within};
 use strips::Strips;
 
 /// The way pairs are found, with the scratch it needs and no other.
@@ -51,17 +52,6 @@ impl BroadPhase {
         visit: impl FnMut(usize, usize, &mut Work),
     ) {
         self.visit_what(bodies, sweeping, work, visit);
-    }
-
-    /// The same of every pair whose given bounds have something in common.
-    pub fn visit_within(
-        &mut self,
-        bodies: &Bodies,
-        within: &Within,
-        work: &mut Work,
-        visit: impl FnMut(usize, usize, &mut Work),
-    ) {
-        self.visit_what(bodies, within, work, visit);
     }
 
     fn visit_what(

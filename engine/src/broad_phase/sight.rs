@@ -1,7 +1,6 @@
 //! What the broad phase looks at: bodies where they stand, or all that they sweep over some time.
 
 use super::bounds::{Range, bounds, range_within, swept};
-use crate::area::Vec2;
 use crate::bodies::Bodies;
 use crate::detect::overlap;
 use crate::flight::{Path, Pull};
@@ -38,31 +37,6 @@ impl Sight for Standing {
     fn may_touch(&self, bodies: &Bodies, (i, rect_i): Of, (j, rect_j): Of) -> bool {
         let (a, b) = (&bodies.rects[rect_i as usize], &bodies.rects[rect_j as usize]);
         !overlap::certainly_apart(&bodies.frame[i], a, &bodies.frame[j], b)
-    }
-}
-
-/// Bodies within bounds that are known already.
-#[derive(Clone, Copy, Debug)]
-pub struct Within<'a> {
-    /// The least and greatest coordinates of every rectangle, and of what may befall it.
-    pub bounds: &'a [(Vec2, Vec2)],
-}
-
-impl Sight for Within<'_> {
-    #[inline]
-    fn bounds(&self, _: &Bodies, (_, rect): Of) -> (Range, Range) {
-        let (low, high) = self.bounds[rect as usize];
-        (Range::around(low.x, high.x), Range::around(low.y, high.y))
-    }
-
-    fn within(&self, _: &Bodies, _: Of, _: (f64, f64)) -> Option<Range> {
-        None
-    }
-
-    #[inline]
-    fn may_touch(&self, _: &Bodies, (_, one): Of, (_, two): Of) -> bool {
-        let ((low, high), (other_low, other_high)) = (self.bounds[one as usize], self.bounds[two as usize]);
-        low.x <= other_high.x && other_low.x <= high.x && low.y <= other_high.y && other_low.y <= high.y
     }
 }
 

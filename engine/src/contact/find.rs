@@ -1,19 +1,19 @@
 //! Who may touch within the step, and where.
 
 use super::Contacts;
+use super::abreast::{Abreast, Loyal, Side};
+use super::points::Points;
+use super::search::Search;
 use super::touch::Touch;
 use crate::advance::frame_before;
 use crate::area::Vec2;
-use crate::broad_phase::Within;
-use crate::broad_phase::bounds::sweep;
-use crate::detect::manifold::Placed;
-use crate::flight::{Path, Pull};
+use crate::bodies::Bodies;
+use crate::flight::Pull;
+use crate::frame::Frame;
+use crate::lanes::LANES;
 use crate::plan::FlightPlan;
+use crate::width::Work;
 use crate::world::World;
-
-/// Room left around rectangles, as a share of the smaller half size: what a body may be pushed within a step beyond where it
-/// was going.
-const ROOM: f64 = 0.02;
 
 impl Contacts {
     /// What acts on each body over the step: gravity, drag, pushes. Empty when nothing acts on any.
@@ -39,51 +39,85 @@ impl Contacts {
 
     /// Finds all touches of the step, and what they remember of the last.
     pub(super) fn find(&mut self, world: &mut World, dt: f64) {
-        let World { plan, bodies, broad_phase, work, .. } = world;
-        self.near.clear();
-        let near = &mut self.near;
-        self.swept.clear();
-        for body in 0..bodies.len() {
-            let path = Path::of(bodies, &self.pulls, body);
-            self.swept.extend(bodies.rects_of(body).iter().map(|rect| {
-                let (low, high) = sweep(&path, rect, dt);
-                let room = Vec2::repeat(ROOM * rect.half().min());
-                (low - room, high + room)
-            }));
-        }
-        let within = Within { bounds: &self.swept };
-        broad_phase.visit_within(bodies, &within, work, |i, j, _| near.push((i as u32, j as u32)));
-        near.sort_unstable();
-        near.dedup();
+        let World { plan, bodies, work, .. } = world;
         core::mem::swap(&mut self.touches, &mut self.before);
         self.touches.clear();
+        self.search.pairs((bodies, &self.pulls, dt), plan.broad_phase, self.width, work);
         let earlier = |body: usize| frame_before(bodies, plan.flight, plan.time_step, body);
-        let mut last = self.before.iter().peekable();
-        for &(i, j) in &self.near {
-            let (i, j) = (i as usize, j as usize);
-            work.pairs_tested += 1;
-            let (one, two) = (Path::of(bodies, &self.pulls, i), Path::of(bodies, &self.pulls, j));
-            for rect_i in Placed::all(bodies, i) {
-                for rect_j in Placed::all(bodies, j) {
-                    if !may_meet(&self.swept[rect_i.index], &self.swept[rect_j.index]) {
-                        continue;
-                    }
-                    work.axes_tested += 4;
-                    let key = (rect_i.index as u32, rect_j.index as u32);
-                    while last.next_if(|touch| touch.rects < key).is_some() {}
-                    let before = last.peek().filter(|touch| touch.rects == key);
-                    let margin = one.closing(&two, rect_i.rect.far(), rect_j.rect.far(), dt)
-                        + ROOM * (rect_i.rect.half().min() + rect_j.rect.half().min());
-                    let found = Touch::find(bodies, (rect_i, rect_j), margin, before.copied(), earlier);
-                    self.touches.extend(found);
-                }
-            }
-        }
+        let Contacts { search, touches, before, pulls, width, .. } = self;
+        width.run(Look { bodies, pulls, search, before, touches, dt, earlier });
         work.pairs_listed += self.touches.len() as u64;
     }
 }
 
-/// Whether what two rectangles sweep has anything in common: the same whatever finds the pairs.
-fn may_meet((low, high): &(Vec2, Vec2), (other_low, other_high): &(Vec2, Vec2)) -> bool {
-    low.x <= other_high.x && other_low.x <= high.x && low.y <= other_high.y && other_low.y <= high.y
+/// Looks at all pairs that may touch, eight side by side.
+struct Look<'a, F> {
+    bodies: &'a Bodies,
+    pulls: &'a [Pull],
+    search: &'a Search,
+    before: &'a [Touch],
+    touches: &'a mut Vec<Touch>,
+    dt: f64,
+    /// Where a body stood a step ago.
+    earlier: F,
+}
+
+impl<F: Fn(usize) -> Frame + Copy> Work for Look<'_, F> {
+    type Out = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Look { bodies, pulls, search, before, touches, dt, earlier } = self;
+        let mut next = 0;
+        for keys in search.near().chunks(LANES) {
+            let mut one = [search.placed(bodies, keys[0].0); LANES];
+            let mut two = [search.placed(bodies, keys[0].1); LANES];
+            for (k, key) in keys.iter().enumerate().skip(1) {
+                (one[k], two[k]) = (search.placed(bodies, key.0), search.placed(bodies, key.1));
+            }
+            let pairs = Abreast::new(Side::of(bodies, pulls, &one), Side::of(bodies, pulls, &two), dt);
+            let may = pairs.may();
+            if may.greatest() < 0.0 {
+                continue;
+            }
+            let mut last = [None; LANES];
+            for (last, key) in last.iter_mut().zip(keys) {
+                while before.get(next).is_some_and(|touch| touch.rects < *key) {
+                    next += 1;
+                }
+                *last = before.get(next).filter(|touch| touch.rects == *key);
+            }
+            let deep = pairs.deep();
+            let points = Points::of(&pairs, pairs.best(&Loyal::of(&last)));
+            for k in (0..keys.len()).filter(|k| may.0[*k] > 0.0) {
+                let seam = bodies.seams.concern(one[k].index) || bodies.seams.concern(two[k].index);
+                let touch = match points.touches(k).filter(|_| deep.0[k] < 0.0 && !seam) {
+                    None => Touch::find(bodies, (one[k], two[k]), pairs.margin.0[k], last[k], earlier),
+                    Some(false) => None,
+                    Some(true) => {
+                        let mut touch = points.touch(k, bodies, (&one[k], &two[k]));
+                        if let Some(last) = last[k] {
+                            touch.remember(last);
+                        }
+                        Some(touch)
+                    }
+                };
+                touches.extend(touch);
+            }
+        }
+    }
+}
+
+impl World {
+    /// Looks once more for the touches of the step to come and counts them: finding on its own, for benchmarks. 0 where a scene
+    /// has no contact solver.
+    #[doc(hidden)]
+    pub fn find_touches(&mut self) -> usize {
+        let Some(mut contacts) = self.contacts.take() else { return 0 };
+        contacts.pull(self);
+        contacts.find(self, self.plan.time_step);
+        let count = contacts.touches.len();
+        self.contacts = Some(contacts);
+        count
+    }
 }

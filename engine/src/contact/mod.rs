@@ -12,21 +12,24 @@
 //!
 //! Bodies that nothing is near fly on exactly, in one go. A scene without contacts has no sub-steps.
 
+mod abreast;
 mod blocks;
 mod find;
 mod flying;
 mod look;
 mod meeting;
+mod points;
 mod rest;
 mod rows;
+mod search;
 mod settle;
 mod strike;
 mod sweep;
+mod swept;
 mod touch;
 mod weights;
 
 use crate::advance::advance_alone;
-use crate::area::Vec2;
 use crate::bodies::{Bodies, Motion};
 use crate::flight::Pull;
 use crate::frame::Angle;
@@ -39,6 +42,7 @@ use flying::Fliers;
 use look::{Look, Warm};
 use rest::{Effort, Rest, Settled};
 use rows::Rows;
+use search::Search;
 use sweep::{Part, Sweep};
 use touch::Touch;
 
@@ -83,10 +87,8 @@ pub(crate) struct Contacts {
     /// The touches of this step and of the last, in the order of their rectangles.
     touches: Vec<Touch>,
     before: Vec<Touch>,
-    /// Pairs of bodies that may meet within the step.
-    near: Vec<(u32, u32)>,
-    /// All that each rectangle sweeps over the step, from its least to its greatest coordinates.
-    swept: Vec<(Vec2, Vec2)>,
+    /// Pairs of rectangles that may meet within the step.
+    search: Search,
     /// What acts on each body over the step.
     pulls: Vec<Pull>,
     rows: Rows,
@@ -120,8 +122,7 @@ impl Contacts {
             band: if smallest.is_finite() { TOUCHING * smallest } else { 0.0 },
             touches: Vec::new(),
             before: Vec::new(),
-            near: Vec::new(),
-            swept: Vec::new(),
+            search: Search::default(),
             pulls: Vec::new(),
             rows: Rows::default(),
             of_touch: Vec::new(),

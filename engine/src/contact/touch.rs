@@ -136,7 +136,7 @@ impl Touch {
     }
 
     /// Carries over the impulses of the last step where the same points touch.
-    fn remember(&mut self, last: &Touch) {
+    pub(super) fn remember(&mut self, last: &Touch) {
         if (self.of_first, self.face) != (last.of_first, last.face) {
             return;
         }

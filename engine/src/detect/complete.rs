@@ -26,7 +26,7 @@ use crate::work::Work;
 /// By how much a later axis must beat an earlier one, relative to the rectangles' size. Far above rounding (1e-16)
 /// and far below what can be seen: without it two squares that meet face to face would choose by rounding, and the
 /// normal could change from step to step.
-pub(super) const PREFERENCE: f64 = 1e-9;
+pub(crate) const PREFERENCE: f64 = 1e-9;
 
 /// The deepest overlap between rectangles of i and of j, the first of equals; `None` when no two overlap.
 /// Touching is not overlapping.

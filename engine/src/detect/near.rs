@@ -13,10 +13,10 @@ use crate::frame::Frame;
 
 /// A face that was touched is kept while no other separates better by this share of the smaller rectangle: parallel faces
 /// do not take turns.
-const LOYALTY: f64 = 1e-3;
+pub(crate) const LOYALTY: f64 = 1e-3;
 
 /// Overlaps deeper than this share of the smaller rectangle go apart the way they came; shallower ones the least way.
-const DEEP: f64 = 0.05;
+pub(crate) const DEEP: f64 = 0.05;
 
 /// Two points closer together than this share of the smaller rectangle are one.
 const ONE: f64 = 1e-6;

@@ -1,0 +1,284 @@
+//! The points of eight touches and their levers, side by side: what [`Touch::find`] does with one pair.
+
+use super::abreast::{Abreast, Best, Flag, Pair, Seen, add, at_least, cross, inward, less, outward, pick, sub, times};
+use super::touch::{FAR, Touch};
+use crate::area::Vec2;
+use crate::bodies::Bodies;
+use crate::detect::Face;
+use crate::detect::manifold::Placed;
+use crate::exchange::impact::Surface;
+use crate::lanes::{Eight, LANES};
+
+/// The reference and the owner of every pair, as far as its face and points go.
+struct Roles {
+    o: Pair,
+    axis: Pair,
+    low: Pair,
+    high: Pair,
+    half: Pair,
+    owner_o: Pair,
+    owner_axis: Pair,
+    owner_low: Pair,
+    owner_high: Pair,
+    owner_half: Pair,
+    /// The owner as seen from the reference.
+    seen: Seen,
+}
+
+impl Roles {
+    #[inline(always)]
+    fn of(pairs: &Abreast, of_first: Flag) -> Roles {
+        let (one, two) = (&pairs.one, &pairs.two);
+        let (seen, other) = (&pairs.two_seen, &pairs.one_seen);
+        Roles {
+            o: pick(of_first, one.o, two.o),
+            axis: pick(of_first, one.axis, two.axis),
+            low: pick(of_first, one.low, two.low),
+            high: pick(of_first, one.high, two.high),
+            half: pick(of_first, one.half, two.half),
+            owner_o: pick(of_first, two.o, one.o),
+            owner_axis: pick(of_first, two.axis, one.axis),
+            owner_low: pick(of_first, two.low, one.low),
+            owner_high: pick(of_first, two.high, one.high),
+            owner_half: pick(of_first, two.half, one.half),
+            seen: Seen { o: pick(of_first, seen.o, other.o), axis: pick(of_first, seen.axis, other.axis), ..*seen },
+        }
+    }
+
+    /// The owner's edge that looks at the face most squarely, by its ends in R4's order round.
+    #[inline(always)]
+    fn facing_edge(&self, normal: Pair) -> [Pair; 2] {
+        let against = inward(self.seen.axis, normal);
+        let ([x_min, z_min], [x_max, z_max]) = (self.owner_low, self.owner_high);
+        let sideways = at_least(against[0].abs(), against[1].abs());
+        let (right, up) = (less(Eight::ZERO, against[0]), less(Eight::ZERO, against[1]));
+        let x = right.pick(x_min, x_max);
+        let z = up.pick(z_min, z_max);
+        let one = [sideways.pick(x, up.pick(x_min, x_max)), sideways.pick(right.pick(z_max, z_min), z)];
+        let two = [sideways.pick(x, up.pick(x_max, x_min)), sideways.pick(right.pick(z_min, z_max), z)];
+        [one, two]
+    }
+}
+
+/// A point of contact in every lane.
+#[derive(Clone, Copy)]
+struct Point {
+    vertex: Pair,
+    on_face: Pair,
+    depth: Eight,
+    /// Whether it is near enough and not beside the face.
+    counts: Flag,
+}
+
+/// Eight touches laid out.
+pub(super) struct Points {
+    /// Which pairs have any point, and which two.
+    any: Flag,
+    two: Flag,
+    /// Where the only point is the edge's second end.
+    swapped: Flag,
+    /// Which have an overlap, though no point counts.
+    passed: Flag,
+    best: Best,
+    n: Pair,
+    gap: [Eight; 2],
+    lever_a: [Eight; 2],
+    lever_b: [Eight; 2],
+    along_a: Eight,
+    along_b: Eight,
+    slip: Pair,
+    middle: Pair,
+}
+
+impl Points {
+    #[inline(always)]
+    pub(super) fn of(pairs: &Abreast, best: Best) -> Points {
+        let roles = Roles::of(pairs, best.of_first);
+        let (zero, sign) = (Eight::ZERO, best.positive);
+        let normal = [best.across_x.pick(sign, zero), best.across_x.pick(zero, sign)];
+        let edge = roles.facing_edge(normal);
+        let placed = [roles.seen.place(edge[0]), roles.seen.place(edge[1])];
+        let face = Line::of(&roles, &best);
+        let ends = [face.along(placed[0]), face.along(placed[1])];
+        let first = face.cut(&roles.seen, pairs.margin, (edge[0], edge[1]), (placed[0], placed[1]));
+        let second = face.cut(&roles.seen, pairs.margin, (edge[1], edge[0]), (placed[1], placed[0]));
+        let small = pairs.small();
+        let between = sub(second.vertex, first.vertex);
+        let length = root(between[0] * between[0] + between[1] * between[1]);
+        let apart = less(Eight::all(1e-9) * small, length);
+        let (any, both) = (first.counts.max(second.counts), first.counts.min(second.counts));
+        let two = both.min(apart);
+        let swapped = (-first.counts).min(second.counts);
+        let points = [choose(swapped, &second, &first), choose(two, &second, &choose(swapped, &second, &first))];
+        let n = outward(roles.axis, normal);
+        let mut laid = Points {
+            any,
+            two,
+            swapped,
+            passed: (-any).min(at_least(best.depth, zero)),
+            best,
+            n,
+            gap: [-points[0].depth, -points[1].depth],
+            lever_a: [zero; 2],
+            lever_b: [zero; 2],
+            along_a: zero,
+            along_b: zero,
+            slip: face.slip(roles.axis, n, ends),
+            middle: [zero; 2],
+        };
+        laid.set_levers(&roles, &points);
+        laid
+    }
+
+    #[inline(always)]
+    fn set_levers(&mut self, roles: &Roles, points: &[Point; 2]) {
+        let (n, middle) = (self.n, Eight::all(0.5));
+        let t = [n[1], -n[0]];
+        let apart = sub(roles.owner_o, roles.o);
+        let mut arms = [[[Eight::ZERO; 2]; 2]; 2];
+        for (arms, point) in arms.iter_mut().zip(points) {
+            let (on_a, on_b) = (outward(roles.axis, point.on_face), outward(roles.owner_axis, point.vertex));
+            let half = times(sub(add(apart, on_b), on_a), middle);
+            *arms = [add(on_a, half), sub(on_b, half)];
+        }
+        let [first, second] = arms;
+        self.along_a = middle * (cross(first[0], t) + cross(second[0], t));
+        self.along_b = middle * (cross(first[1], t) + cross(second[1], t));
+        self.middle = add(roles.o, times(add(first[0], second[0]), middle));
+        let beside = roles.half[0].min(roles.half[1]) + roles.owner_half[0].min(roles.owner_half[1]);
+        self.lever_a = [cross(first[0], n), cross(second[0], n)];
+        self.lever_b = [cross(first[1], n), cross(second[1], n)];
+        // A second point beside the first and out of reach keeps all touches alike.
+        self.lever_a[1] = self.two.pick(self.lever_a[1], self.lever_a[1] + beside);
+        self.lever_b[1] = self.two.pick(self.lever_b[1], self.lever_b[1] + beside);
+        self.gap[1] = self.two.pick(self.gap[1], Eight::all(FAR));
+    }
+
+    /// Whether the pair has a touch; `None` where its next best face is to be tried.
+    #[inline(always)]
+    pub(super) fn touches(&self, k: usize) -> Option<bool> {
+        if self.passed.0[k] > 0.0 { None } else { Some(self.any.0[k] > 0.0) }
+    }
+
+    /// The touch of a pair that has one.
+    #[inline(always)]
+    pub(super) fn touch(&self, k: usize, bodies: &Bodies, (one, two): (&Placed, &Placed)) -> Touch {
+        let is = |flag: &Flag| flag.0[k] > 0.0;
+        let of_first = is(&self.best.of_first);
+        let (a, b) = if of_first { (one.body, two.body) } else { (two.body, one.body) };
+        let (has_two, swapped) = (is(&self.two), u8::from(is(&self.swapped)));
+        Touch {
+            rects: (one.index as u32, two.index as u32),
+            a: a as u32,
+            b: b as u32,
+            face: match (is(&self.best.across_x), is(&self.best.positive)) {
+                (true, true) => Face::XMax,
+                (true, false) => Face::XMin,
+                (false, true) => Face::ZMax,
+                (false, false) => Face::ZMin,
+            },
+            of_first,
+            n: Vec2::new(self.n[0].0[k], self.n[1].0[k]),
+            ends: [swapped, if has_two { 1 } else { u8::MAX }],
+            count: if has_two { 2 } else { 1 },
+            gap: [self.gap[0].0[k], self.gap[1].0[k]],
+            lever_a: [self.lever_a[0].0[k], self.lever_a[1].0[k]],
+            lever_b: [self.lever_b[0].0[k], self.lever_b[1].0[k]],
+            along_a: self.along_a.0[k],
+            along_b: self.along_b.0[k],
+            slip: (self.slip[0].0[k], self.slip[1].0[k]),
+            surface: Surface::of_pair(bodies.surface[a], bodies.surface[b]),
+            middle: Vec2::new(self.middle[0].0[k], self.middle[1].0[k]),
+            push: [0.0; 2],
+            grip: 0.0,
+            touching: false,
+        }
+    }
+}
+
+#[inline(always)]
+fn choose(flag: Flag, yes: &Point, no: &Point) -> Point {
+    Point {
+        vertex: pick(flag, yes.vertex, no.vertex),
+        on_face: pick(flag, yes.on_face, no.on_face),
+        depth: flag.pick(yes.depth, no.depth),
+        counts: no.counts,
+    }
+}
+
+/// The face of the reference in every lane.
+struct Line {
+    across_x: Flag,
+    positive: Flag,
+    /// Where the face lies along its normal's axis, and from where to where it reaches along itself.
+    at: Eight,
+    least: Eight,
+    greatest: Eight,
+}
+
+impl Line {
+    #[inline(always)]
+    fn of(roles: &Roles, best: &Best) -> Line {
+        let (across_x, positive) = (best.across_x, best.positive);
+        let sides = pick(positive, roles.high, roles.low);
+        Line {
+            across_x,
+            positive,
+            at: across_x.pick(sides[0], sides[1]),
+            least: across_x.pick(roles.low[1], roles.low[0]),
+            greatest: across_x.pick(roles.high[1], roles.high[0]),
+        }
+    }
+
+    #[inline(always)]
+    fn along(&self, point: Pair) -> Eight {
+        self.across_x.pick(point[1], point[0])
+    }
+
+    /// An end of an edge cut to the face, as [`crate::detect::manifold::cut_to_face`] does.
+    #[inline(always)]
+    fn cut(&self, seen: &Seen, margin: Eight, (near, far): (Pair, Pair), (place, other): (Pair, Pair)) -> Point {
+        let (t, until) = (self.along(place), self.along(other));
+        let (before, after) = (less(t, self.least), less(self.greatest, t));
+        let limit = before.pick(self.least, self.greatest);
+        let share = over(limit - t, until - t).max(Eight::ZERO).min(Eight::all(1.0));
+        let share = before.max(after).pick(share, Eight::ZERO);
+        let p = add(place, times(sub(other, place), share));
+        let vertex = add(near, times(sub(far, near), share));
+        let across = self.across_x.pick(p[0], p[1]);
+        let depth = self.positive.pick(self.at - across, across - self.at);
+        let on_face = [self.across_x.pick(self.at, p[0]), self.across_x.pick(p[1], self.at)];
+        let (at, slack) = (self.along(seen.place(vertex)), Eight::all(1e-9) * (self.greatest - self.least));
+        let within = at_least(at, self.least - slack).min(at_least(self.greatest + slack, at));
+        Point { vertex, on_face, depth, counts: at_least(depth, -margin).min(within) }
+    }
+
+    /// How far the owner may slip along t, backward and forward, before its edge leaves the face.
+    #[inline(always)]
+    fn slip(&self, axis: Pair, n: Pair, ends: [Eight; 2]) -> Pair {
+        let (zero, one) = (Eight::ZERO, Eight::all(1.0));
+        let (e0, e1) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
+        let with_t = outward(axis, [self.across_x.pick(zero, one), self.across_x.pick(one, zero)]);
+        let forward = less(zero, with_t[0] * n[1] + with_t[1] * -n[0]);
+        let (back, on) = ([self.least - e1, e0 - self.greatest], [self.greatest - e0, e1 - self.least]);
+        [forward.pick(back[0], back[1]), forward.pick(on[0], on[1])]
+    }
+}
+
+#[inline(always)]
+fn over(a: Eight, b: Eight) -> Eight {
+    let mut out = a;
+    for k in 0..LANES {
+        out.0[k] = a.0[k] / b.0[k];
+    }
+    out
+}
+
+#[inline(always)]
+pub(super) fn root(square: Eight) -> Eight {
+    let mut out = square;
+    for value in &mut out.0 {
+        *value = value.sqrt();
+    }
+    out
+}

@@ -1,0 +1,145 @@
+//! Which rectangles are worth a full look: pairs whose swept bounds meet and that no axis holds apart, in order.
+
+use super::swept::SweepAll;
+use crate::bodies::Bodies;
+use crate::broad_phase::grid::{Bounds, Grid, Met, Owner};
+use crate::detect::manifold::Placed;
+use crate::flight::Pull;
+use crate::plan::BroadPhasePlan;
+use crate::width::{self, Width};
+use crate::work::Work;
+
+/// The search and its scratch; it allocates until it is warm and never after.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Search {
+    /// Whose each rectangle is.
+    owners: Vec<Owner>,
+    /// What each sweeps over the step.
+    bounds: Vec<Bounds>,
+    grid: Grid,
+    met: Met,
+    /// The pairs found, by the indices of their rectangles, i < j, in order.
+    near: Vec<(u32, u32)>,
+    begins: Vec<u32>,
+}
+
+/// Fewer pairs than one for so many rectangles are sorted by comparing them.
+const SPARSE: usize = 8;
+
+impl Search {
+    /// The pairs that may touch within a time, in the order of their rectangles: the same whatever way they are found.
+    pub(super) fn pairs(
+        &mut self,
+        (bodies, pulls, dt): (&Bodies, &[Pull], f64),
+        plan: BroadPhasePlan,
+        width: Width,
+        work: &mut Work,
+    ) {
+        self.sweep((bodies, pulls, dt), width);
+        work.bounds += self.bounds.len() as u64;
+        self.near.clear();
+        let Search { owners, bounds, grid, met, near, .. } = self;
+        if plan == BroadPhasePlan::AllPairs {
+            all_pairs(bounds, owners, near, work);
+            return;
+        }
+        grid.fill(bounds, owners);
+        work.bounds_compared += width.run(Visit { grid, met });
+        self.sort();
+        count(work, self.near.len());
+    }
+
+    /// The pairs found last.
+    pub(super) fn near(&self) -> &[(u32, u32)] {
+        &self.near
+    }
+
+    /// A rectangle where its body stands.
+    #[inline]
+    pub(super) fn placed<'a>(&self, bodies: &'a Bodies, rect: u32) -> Placed<'a> {
+        let (index, body) = (rect as usize, self.owners[rect as usize].body());
+        Placed { body, frame: &bodies.frame[body], index, rect: &bodies.rects[index] }
+    }
+
+    fn sweep(&mut self, (bodies, pulls, dt): (&Bodies, &[Pull], f64), width: Width) {
+        let count = bodies.rects.len();
+        if self.owners.len() != count {
+            self.owners.clear();
+            for body in 0..bodies.len() {
+                let owner = Owner::new(body, bodies.is_mobile(body));
+                self.owners.extend(bodies.rects_of(body).iter().map(|_| owner));
+            }
+            self.bounds.resize(count, Bounds([0.0; 4]));
+        }
+        let Search { owners, bounds, .. } = self;
+        width.run(SweepAll { bodies, pulls, owners, dt, bounds });
+    }
+
+    /// Puts the pairs in order: counted by their first, placed, then each first's by their second.
+    fn sort(&mut self) {
+        let met = self.met.pairs();
+        if SPARSE * met.len() < self.bounds.len() {
+            self.near.extend_from_slice(met);
+            self.near.sort_unstable();
+            return;
+        }
+        self.begins.clear();
+        self.begins.resize(self.bounds.len() + 1, 0);
+        for (i, _) in met {
+            self.begins[*i as usize] += 1;
+        }
+        let mut end = 0;
+        for begin in &mut self.begins {
+            end += *begin;
+            *begin = end;
+        }
+        self.near.resize(met.len(), (0, 0));
+        for pair in met {
+            let begin = &mut self.begins[pair.0 as usize];
+            *begin -= 1;
+            self.near[*begin as usize] = *pair;
+        }
+        for ends in self.begins.windows(2) {
+            let of_one = &mut self.near[ends[0] as usize..ends[1] as usize];
+            if of_one.len() > 1 {
+                of_one.sort_unstable();
+            }
+        }
+    }
+}
+
+/// Every pair whose bounds meet: what the grid is held to.
+fn all_pairs(bounds: &[Bounds], owners: &[Owner], near: &mut Vec<(u32, u32)>, work: &mut Work) {
+    for i in 0..bounds.len() {
+        for j in i + 1..bounds.len() {
+            if owners[i].can_meet(owners[j]) {
+                work.bounds_compared += 1;
+                if bounds[i].meet(&bounds[j]) {
+                    count(work, 1);
+                    near.push((i as u32, j as u32));
+                }
+            }
+        }
+    }
+}
+
+/// Pairs whose bounds meet are tried along four axes.
+fn count(work: &mut Work, pairs: usize) {
+    work.pairs_tested += pairs as u64;
+    work.axes_tested += 4 * pairs as u64;
+}
+
+/// Looks through the grid.
+struct Visit<'a> {
+    grid: &'a Grid,
+    met: &'a mut Met,
+}
+
+impl width::Work for Visit<'_> {
+    type Out = u64;
+
+    #[inline(always)]
+    fn run(self) -> u64 {
+        self.grid.visit(0..self.grid.cells(), self.met)
+    }
+}

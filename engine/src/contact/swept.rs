@@ -1,0 +1,136 @@
+//! What every rectangle sweeps over a step, eight at a time.
+
+use super::points::root;
+use crate::area::Vec2;
+use crate::bodies::Bodies;
+use crate::broad_phase::grid::{Bounds, Owner};
+use crate::flight::Pull;
+use crate::lanes::{Eight, LANES, transpose};
+use crate::width::Work;
+
+/// Room left around rectangles, as a share of the smaller half size: what a body may be pushed within a step beyond where it
+/// was going.
+pub(super) const ROOM: f64 = 0.02;
+
+/// All rectangles over a step, to be computed.
+pub(super) struct SweepAll<'a> {
+    pub(super) bodies: &'a Bodies,
+    pub(super) pulls: &'a [Pull],
+    pub(super) owners: &'a [Owner],
+    pub(super) dt: f64,
+    pub(super) bounds: &'a mut [Bounds],
+}
+
+impl Work for SweepAll<'_> {
+    type Out = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let SweepAll { bodies, pulls, owners, dt, bounds } = self;
+        for first in (0..owners.len()).step_by(LANES) {
+            let lanes = Lanes::load(bodies, pulls, owners, first);
+            let count = LANES.min(owners.len() - first);
+            let [x0, z0, x1, z1] = lanes.bounds(dt);
+            let zero = Eight::ZERO;
+            let around = transpose([x0.0, z0.0, x1.0, z1.0, zero.0, zero.0, zero.0, zero.0]);
+            for k in 0..count {
+                let [x0, z0, x1, z1, ..] = around[k].0;
+                bounds[first + k] = Bounds([x0, z0, x1, z1]);
+            }
+        }
+    }
+}
+
+/// Eight rectangles and their bodies' motions.
+struct Lanes {
+    o: [Eight; 2],
+    cos: Eight,
+    sin: Eight,
+    v: [Eight; 2],
+    omega: Eight,
+    /// x_min, x_max, z_min, z_max.
+    rect: [Eight; 4],
+    /// Acceleration and angular acceleration now.
+    acceleration: [Eight; 2],
+    angular: Eight,
+    /// 1 where the flight is uniform and without spin, else −1.
+    straight: Eight,
+}
+
+impl Lanes {
+    #[inline(always)]
+    fn load(bodies: &Bodies, pulls: &[Pull], owners: &[Owner], first: usize) -> Lanes {
+        let zero = Eight::ZERO;
+        let mut lanes = Lanes {
+            o: [zero; 2],
+            cos: zero,
+            sin: zero,
+            v: [zero; 2],
+            omega: zero,
+            rect: [zero; 4],
+            acceleration: [zero; 2],
+            angular: zero,
+            straight: zero,
+        };
+        for k in 0..LANES {
+            let at = (first + k).min(owners.len() - 1);
+            let body = owners[at].body();
+            let (frame, motion, rect) = (&bodies.frame[body], &bodies.motion[body], &bodies.rects[at]);
+            (lanes.o[0].0[k], lanes.o[1].0[k]) = (frame.o.x, frame.o.y);
+            (lanes.cos.0[k], lanes.sin.0[k]) = (frame.cos, frame.sin);
+            (lanes.v[0].0[k], lanes.v[1].0[k]) = (motion.v.x, motion.v.y);
+            lanes.omega.0[k] = motion.omega;
+            for (side, value) in [rect.x_min, rect.x_max, rect.z_min, rect.z_max].into_iter().enumerate() {
+                lanes.rect[side].0[k] = value;
+            }
+            let pull = if pulls.is_empty() { Pull::NONE } else { pulls[body] };
+            let acceleration: Vec2 = pull.a - motion.v * pull.drag.0;
+            (lanes.acceleration[0].0[k], lanes.acceleration[1].0[k]) = (acceleration.x, acceleration.y);
+            lanes.angular.0[k] = pull.alpha - motion.omega * pull.drag.1;
+            lanes.straight.0[k] = if motion.omega == 0.0 && pull.is_none() { 1.0 } else { -1.0 };
+        }
+        lanes
+    }
+
+    #[inline(always)]
+    fn half(&self) -> [Eight; 2] {
+        let half = Eight::all(0.5);
+        let [x_min, x_max, z_min, z_max] = self.rect;
+        [half * (x_max - x_min), half * (z_max - z_min)]
+    }
+
+    /// The middle of each rectangle, from its body's centre, along the world's axes.
+    #[inline(always)]
+    fn centre(&self) -> [Eight; 2] {
+        let half = Eight::all(0.5);
+        let [x_min, x_max, z_min, z_max] = self.rect;
+        let (x, z) = (half * (x_min + x_max), half * (z_min + z_max));
+        [self.cos * x - self.sin * z, self.sin * x + self.cos * z]
+    }
+
+    /// The same as [`crate::broad_phase::bounds::sweep`] with room around, to the bit.
+    #[inline(always)]
+    fn bounds(&self, dt: f64) -> [Eight; 4] {
+        let (time, half) = (Eight::all(dt), Eight::all(0.5));
+        let ([hx, hz], centre) = (self.half(), self.centre());
+        let (cos, sin) = (self.cos.abs(), self.sin.abs());
+        let reach = [cos * hx + sin * hz, sin * hx + cos * hz];
+        let [x_min, x_max, z_min, z_max] = self.rect;
+        let (x, z) = (x_min.abs().max(x_max.abs()), z_min.abs().max(z_max.abs()));
+        let radius = root(x * x + z * z);
+        let turned = (self.omega.abs() + half * self.angular.abs() * time) * time * radius;
+        let [ax, az] = self.acceleration;
+        let stray = half * root(ax * ax + az * az) * time * time;
+        let room = Eight::all(ROOM) * hx.min(hz);
+        let (mut least, mut greatest) = ([Eight::ZERO; 2], [Eight::ZERO; 2]);
+        for k in 0..2 {
+            let (low, high) = (centre[k] - reach[k], centre[k] + reach[k]);
+            let low = self.straight.pick(low, (low - turned).max(-radius));
+            let high = self.straight.pick(high, (high + turned).min(radius));
+            let way = self.v[k] * time;
+            least[k] = self.o[k] + low + way.min(Eight::ZERO) - stray - room;
+            greatest[k] = self.o[k] + high + way.max(Eight::ZERO) + stray + room;
+        }
+        [least[0], least[1], greatest[0], greatest[1]]
+    }
+}
