@@ -1,0 +1,21 @@
+//! Choque beside Box2D and Rapier: the same scenes, the same exact cases, one process, engine after engine.
+//!
+//! | what | file |
+//! |---|---|
+//! | what there is to simulate | [`scene`] |
+//! | who simulates it | [`engine`] |
+//! | what came of it | [`judge`], [`memory`] |
+//! | speed: scenes run in turns | [`speed`] |
+//! | calls, tables | [`cli`], [`table`] |
+
+pub mod cli;
+pub mod engine;
+pub mod judge;
+pub mod memory;
+pub mod scene;
+pub mod speed;
+pub mod table;
+
+/// Everything this program allocates is counted, engines written in C included.
+#[global_allocator]
+static ALLOCATOR: memory::Counted = memory::Counted;
