@@ -8,7 +8,7 @@ use choque::report::statistics::median;
 use crate::engine::{Engine, How};
 use crate::judge::{self, Verdict};
 use crate::memory;
-use crate::scene::{Name, Scene};
+use crate::scene::Scene;
 
 /// How long to measure.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,6 +46,14 @@ pub struct Row {
     pub verdict: Verdict,
 }
 
+impl Row {
+    /// The best time, unless the engine lost a body among the numbers: then it may have stopped computing.
+    #[must_use]
+    pub fn sound_ms(&self) -> Option<f64> {
+        self.verdict.deepest.map(|_| self.best_ms)
+    }
+}
+
 /// What one run took and left.
 struct Run {
     /// Of every step \[ms\].
@@ -60,24 +68,23 @@ struct Run {
 /// # Errors
 /// A scene that an engine refuses.
 pub fn measure(
-    names: &[Name],
+    scenes: impl Iterator<Item = (String, Scene)>,
     engines: &[Engine],
     threads: usize,
     patience: Patience,
     told: impl Fn(&str),
 ) -> Result<Vec<Row>, Box<dyn Error>> {
     let mut rows = Vec::new();
-    for name in names {
-        let mut scene = name.scene();
+    for (name, mut scene) in scenes {
         scene.steps = patience.steps.unwrap_or(scene.steps);
         let mut runs: Vec<Vec<Run>> = engines.iter().map(|_| Vec::new()).collect();
         for turn in 1..=patience.repeats {
             for (engine, runs) in engines.iter().zip(&mut runs) {
-                told(&format!("{}, {}, {turn} of {}", name.word(), engine.word(), patience.repeats));
+                told(&format!("{name}, {}, {turn} of {}", engine.word(), patience.repeats));
                 runs.push(run(*engine, &scene, &How::usual(engine.threads(threads)))?);
             }
         }
-        let row = |(engine, runs): (&Engine, &Vec<Run>)| summed_up(name.word(), *engine, threads, &scene, runs);
+        let row = |(engine, runs): (&Engine, &Vec<Run>)| summed_up(name.clone(), *engine, threads, &scene, runs);
         rows.extend(engines.iter().zip(&runs).map(row));
     }
     Ok(rows)

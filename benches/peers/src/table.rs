@@ -112,7 +112,7 @@ pub fn speed(rows: &[Row]) -> Table {
     ]);
     for row in rows {
         let ours = rows.iter().find(|other| other.scene == row.scene && other.engine == Engine::Choque);
-        let ratio = ours.map(|ours| ours.best_ms / row.best_ms);
+        let ratio = ours.and_then(|ours| Some(ours.sound_ms()? / row.sound_ms()?));
         table.rows.push(vec![
             row.scene.clone(),
             row.bodies.to_string(),
@@ -126,7 +126,7 @@ pub fn speed(rows: &[Row]) -> Table {
             told(ratio),
             format!("{:.0}", row.bytes_per_body),
             row.contacts.map_or_else(nothing, |count| count.to_string()),
-            told(row.verdict.deepest),
+            row.verdict.deepest.map_or_else(|| "not finite".to_owned(), significant),
             told(row.verdict.energy_drift),
             told(row.verdict.shape_error),
         ]);

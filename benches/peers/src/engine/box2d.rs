@@ -4,7 +4,7 @@
 #![expect(unsafe_code, reason = "Box2D is written in C")]
 
 use std::alloc::{Layout, alloc, dealloc};
-use std::ffi::{c_int, c_void};
+use std::ffi::{c_char, c_int, c_void};
 use std::mem::MaybeUninit;
 use std::sync::Once;
 
@@ -26,7 +26,7 @@ pub(super) struct World {
 
 impl World {
     pub(super) fn new(scene: &Scene, how: &How) -> World {
-        share_allocator();
+        set_up();
         // SAFETY: fills in a plain struct; called from one thread, as everything here.
         let mut def = unsafe { ffi::b2DefaultWorldDef() };
         def.gravity = vec2(scene.gravity);
@@ -157,13 +157,19 @@ fn vec2([x, y]: [f64; 2]) -> ffi::b2Vec2 {
 /// What Box2D aligns everything to, and of what its sizes are multiples.
 const ALIGNMENT: usize = 32;
 
-/// Makes Box2D take its memory from this program's allocator.
-fn share_allocator() {
+/// Makes Box2D take its memory from this program's allocator, and keeps its messages out of what this program prints.
+fn set_up() {
     static ONCE: Once = Once::new();
-    // SAFETY: before the first world is created Box2D holds no memory that another allocator gave; both functions keep to the
-    // contract of the one they replace.
-    ONCE.call_once(|| unsafe { ffi::b2SetAllocator(Some(give), Some(take)) });
+    // SAFETY: before the first world is created Box2D holds no memory that another allocator gave; the functions keep to the
+    // contracts of those they replace.
+    ONCE.call_once(|| unsafe {
+        ffi::b2SetAllocator(Some(give), Some(take));
+        ffi::b2SetLogFcn(Some(ignore));
+    });
 }
+
+/// It says when a buffer is too small and another is used; that costs time, which is measured.
+unsafe extern "C" fn ignore(_: *const c_char) {}
 
 fn layout(size: usize, alignment: usize) -> Option<Layout> {
     Layout::from_size_align(size.next_multiple_of(ALIGNMENT), alignment).ok().filter(|layout| layout.size() > 0)

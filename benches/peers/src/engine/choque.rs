@@ -23,8 +23,8 @@ pub(super) struct World {
 
 impl World {
     pub(super) fn new(scene: &Scene, how: &How, motion: Motion) -> Result<World, SceneError> {
-        let world = choque_engine::World::new(&described(scene, how, motion))?;
-        // THREADS: `world.set_threads(how.threads)` belongs here, and `Engine::threads` then says so.
+        let mut world = choque_engine::World::new(&described(scene, how, motion))?;
+        world.set_threads(how.threads);
         let ids = world.ids().collect();
         Ok(World { world, ids })
     }
@@ -60,7 +60,8 @@ impl super::World for World {
 fn described(scene: &Scene, how: &How, motion: Motion) -> choque_engine::Scene {
     let settings = Settings {
         time_step: how.time_step,
-        // SUBSTEPS: `substeps: Some(how.substeps)` and `sleeping: scene.sleeping` belong here.
+        substeps: (motion == Motion::Stepped).then_some(how.substeps),
+        sleeping: motion == Motion::Stepped && scene.sleeping,
         exchange: ExchangeRule::Impulse,
         motion: match motion {
             Motion::Stepped => MotionRule::Stepped,

@@ -96,9 +96,8 @@ impl Engine {
     #[must_use]
     pub fn threads(self, wanted: usize) -> usize {
         match self {
-            Engine::Box2d => wanted,
-            // choque: `wanted`, once a world can be given threads.
-            Engine::Choque | Engine::ChoqueContinuous | Engine::RapierF32 | Engine::RapierF64 => 1,
+            Engine::Choque | Engine::Box2d => wanted,
+            Engine::ChoqueContinuous | Engine::RapierF32 | Engine::RapierF64 => 1,
         }
     }
 
