@@ -2,21 +2,12 @@
 
 use super::impacts::{elastic, greatest};
 use super::play::Play;
-use super::{Case, LADDER, Phases, Start};
+use super::{Case, Phases, Start};
 use crate::judge::worse;
 use crate::scene::{Body, Role, Scene};
 
 pub(super) fn cases() -> Vec<Case> {
-    let case = |name, title, error, scene, judge| Case {
-        name,
-        title,
-        error,
-        phases: Phases::One,
-        finest: LADDER[LADDER.len() - 1],
-        crowded: false,
-        scene,
-        judge,
-    };
+    let case = |name, title, error, scene, judge| Case::new([name, title, error], Phases::One, scene, judge);
     let counted = "greatest of the final speeds' errors [m/s] and the overlap on the way [m]";
     vec![
         case("e1_k1", "E1: blocks that count pi, 31 hits", counted, |_| galperin(1), |play| counts(play, 1)),

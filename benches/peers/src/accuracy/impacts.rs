@@ -1,21 +1,12 @@
 //! Single impacts, whose outcomes are fractions.
 
 use super::play::Play;
-use super::{Case, LADDER, Phases, Start};
+use super::{Case, Phases, Start};
 use crate::judge::worse;
 use crate::scene::{Body, Judge, Role, Scene};
 
 pub(super) fn cases() -> Vec<Case> {
-    let case = |name, title, error, scene, judge| Case {
-        name,
-        title,
-        error,
-        phases: Phases::Median(8),
-        finest: LADDER[LADDER.len() - 1],
-        crowded: false,
-        scene,
-        judge,
-    };
+    let case = |name, title, error, scene, judge| Case::new([name, title, error], Phases::Median(8), scene, judge);
     vec![
         case(
             "c1_speed",

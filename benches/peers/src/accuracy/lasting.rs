@@ -1,23 +1,14 @@
 //! Contacts that last: sliding, rocking, seams.
 
 use super::play::Play;
-use super::{Case, LADDER, Phases, Start};
+use super::{Case, Phases, Start};
 use crate::judge::worse;
 use crate::scene::{Body, Judge, Role, Scene};
 
 const GRAVITY: f64 = 9.81;
 
 pub(super) fn cases() -> Vec<Case> {
-    let case = |name, title, error, scene, judge| Case {
-        name,
-        title,
-        error,
-        phases: Phases::One,
-        finest: LADDER[LADDER.len() - 1],
-        crowded: false,
-        scene,
-        judge,
-    };
+    let case = |name, title, error, scene, judge| Case::new([name, title, error], Phases::One, scene, judge);
     vec![
         case("p1", "P1: a block slides to rest", "error of the distance [m]", slider, slid),
         case(

@@ -38,6 +38,18 @@ pub struct Case {
     pub judge: fn(&mut Play) -> f64,
 }
 
+impl Case {
+    /// A case of few bodies, tried with the whole ladder.
+    fn new(
+        [name, title, error]: [&'static str; 3],
+        phases: Phases,
+        scene: fn(&Start) -> Scene,
+        judge: fn(&mut Play) -> f64,
+    ) -> Self {
+        Case { name, title, error, phases, finest: LADDER[LADDER.len() - 1], crowded: false, scene, judge }
+    }
+}
+
 /// How many starts, and which of their errors counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Phases {
@@ -89,7 +101,7 @@ pub struct Outcome {
     pub seconds: f64,
 }
 
-/// Every contender with every time step. Peers' solvers make 4 sub-steps of each.
+/// Every contender with every time step, of 4 sub-steps but in continuous motion.
 ///
 /// # Errors
 /// A scene that an engine refuses.

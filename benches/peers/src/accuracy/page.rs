@@ -110,7 +110,7 @@ fn drawn(title: &str, error: &str, time: &str, points: impl Fn(Engine) -> Vec<Po
     Figure {
         title: title.to_owned(),
         subtitle: format!(
-            "{error}; what is smaller than 1e-16 is drawn there; labels: time step [s], 4 sub-steps each for the peers"
+            "{error}; what is smaller than 1e-16 is drawn there; labels: time step [s], of 4 sub-steps but in continuous motion"
         ),
         x: Axis::log(time),
         y: Axis::log("error"),

@@ -2,21 +2,12 @@
 
 use super::impacts::elastic;
 use super::play::Play;
-use super::{Case, LADDER, Phases, Start};
+use super::{Case, Phases, Start};
 use crate::judge::judge;
 use crate::scene::{Body, Role, Scene, smash};
 
 pub(super) fn cases() -> Vec<Case> {
-    let case = |name, title, error, phases, scene, judge| Case {
-        name,
-        title,
-        error,
-        phases,
-        finest: LADDER[LADDER.len() - 1],
-        crowded: false,
-        scene,
-        judge,
-    };
+    let case = |name, title, error, phases, scene, judge| Case::new([name, title, error], phases, scene, judge);
     let beyond = "how far it is from the side it came from [m]";
     vec![
         case("t9_spawned", "T9: spawned past the middle of a wall", beyond, Phases::One, spawned, beyond_wall),
