@@ -8,7 +8,7 @@ use choque::arguments::ScenarioArguments;
 use choque::report::assemble::study;
 use choque::report::format::{error, times};
 use choque::report::recipe::Recipe;
-use choque::report::study::{Build, Study};
+use choque::report::study::{Study, machine};
 use choque::report::{jobs, method, picture, told};
 use choque_engine::scene::{Detection, MotionRule};
 use choque_scripting::{Options, Scenario};
@@ -144,13 +144,4 @@ fn claim(studies: &[Study]) -> String {
     };
     let rows: Vec<Vec<String>> = studies.iter().filter(isolated).filter_map(row).collect();
     table(&["scene", "stepped, CPU per s for 1e-6", "continuous", "times cheaper"], &rows)
-}
-
-/// What everything was measured on.
-fn machine() -> String {
-    let Build { rustc, opt_level, target_cpu, target } = Build::here();
-    let info = fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
-    let model = info.lines().find_map(|line| line.strip_prefix("model name")?.split(':').nth(1));
-    let model = model.map_or("a processor that does not tell its name", str::trim);
-    format!("{model}, {} cores; {rustc}, opt-level {opt_level}, target-cpu {target_cpu}, {target}", jobs::cores())
 }

@@ -75,6 +75,19 @@ impl Build {
     }
 }
 
+/// What measurements are made on: processor, cores and compiler.
+#[must_use]
+pub fn machine() -> String {
+    let Build { rustc, opt_level, target_cpu, target } = Build::here();
+    let info = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let model = info.lines().find_map(|line| line.strip_prefix("model name")?.split(':').nth(1));
+    let model = model.map_or("a processor that does not tell its name", str::trim);
+    format!(
+        "{model}, {} cores; {rustc}, opt-level {opt_level}, target-cpu {target_cpu}, {target}",
+        super::jobs::cores()
+    )
+}
+
 /// What errors with one way of finding collisions are measured against.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Referred {
