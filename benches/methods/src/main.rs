@@ -17,6 +17,7 @@ mod suite;
 mod world;
 
 use std::error::Error;
+use std::io::Write;
 use std::path::PathBuf;
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -27,7 +28,10 @@ fn main() -> Result<(), Box<dyn Error>> {
         ["--scene", scene] => (None, Some((*scene).to_owned())),
         _ => return Err("usage: choque-methods [-o DIR | --scene NAME]".into()),
     };
-    let runs = suite::played(only.as_deref(), |run| println!("{}", report::line(run)));
+    let runs = suite::played(only.as_deref(), |run| {
+        // Whoever has read enough may close the pipe.
+        let _ = writeln!(std::io::stdout(), "{}", report::line(run));
+    });
     if runs.is_empty() {
         return Err(format!("no such scene; there are: {}", suite::names().join(", ")).into());
     }
