@@ -10,7 +10,7 @@ use crate::frame::Frame;
 
 /// A change of motion within a sub-step no greater than this many times what gravity would do is a force's, and acts all
 /// along; a greater one is an impact's, and acts from the start.
-const FORCEFUL: f64 = 2.0;
+pub(super) const FORCEFUL: f64 = 2.0;
 
 /// What a fixed body can pass on of its speed, squared.
 const TWICE: f64 = 4.0;

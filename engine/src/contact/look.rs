@@ -3,7 +3,8 @@
 //! ```text
 //!   u₀: how fast a point parts now, g its gap, h the sub-step
 //!   will be reached (u₀ < −g/h):   −g/h          slowed down to just come to touch
-//!   else:                          −2 g/h − u₀   so that it does not come below the face: g + h (u₀ + u)/2 ≥ 0
+//!   else:                          −2 g/h − u₀   so that it does not come below the face: g + h (u₀ + u)/2 ≥ 0,
+//!                                                and no more below −g/h than forces change in a sub-step
 //! ```
 
 use super::blocks::Block;
@@ -19,6 +20,8 @@ pub(super) struct Look<'a> {
     /// The sub-step \[s\], and up to what gap points touch \[m\].
     pub(super) h: f64,
     pub(super) band: f64,
+    /// What gravity does in the sub-step, some times over \[m/s\].
+    pub(super) pulled: f64,
 }
 
 impl Work for Look<'_> {
@@ -27,6 +30,7 @@ impl Work for Look<'_> {
     #[inline(always)]
     fn run(self) {
         let (rate, band) = (Eight::all(1.0 / self.h), Eight::all(self.band));
+        let pulled = Eight::all(self.pulled);
         for block in self.blocks {
             let (a, b) = (gather(self.rows, &block.row_a), gather(self.rows, &block.row_b));
             let gap = gaps(block, &a, &b);
@@ -34,7 +38,7 @@ impl Work for Look<'_> {
             for k in 0..2 {
                 let u = along_n + block.lever_b[k] * b[SPIN] - block.lever_a[k] * a[SPIN];
                 let reach = -((gap[k] - band).max(Eight::ZERO) * rate);
-                block.asked[k] = reach.min(reach + reach - u);
+                block.asked[k] = reach + (reach - u).min(Eight::ZERO).max(-pulled);
             }
         }
     }

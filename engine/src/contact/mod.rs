@@ -245,10 +245,10 @@ impl Contacts {
 
     fn substep(&mut self, world: &mut World, h: f64) {
         self.strike(world, h);
-        self.look(h);
+        let pulled = world.plan.gravity().norm() * h;
+        self.look(h, flying::FORCEFUL * pulled);
         self.leave_clear();
         self.fliers.set_out(&mut self.rows, &self.pulls, h);
-        let pulled = world.plan.gravity().norm() * h;
         let fastest = self.fliers.fastest();
         let quiet = fastest <= QUIET * pulled;
         if quiet {
@@ -314,9 +314,9 @@ impl Contacts {
     }
 
     /// What every point asks for in the sub-step.
-    fn look(&mut self, h: f64) {
+    fn look(&mut self, h: f64, pulled: f64) {
         let (rows, blocks) = (&self.rows.rows[..], &mut self.blocks.blocks[..]);
-        self.width.run(Look { rows, blocks, h, band: self.band });
+        self.width.run(Look { rows, blocks, h, band: self.band, pulled });
     }
 
     fn sweep(&mut self, back: bool) -> f64 {

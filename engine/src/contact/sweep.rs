@@ -145,7 +145,7 @@ impl Response {
     }
 }
 
-/// The gaps at both points by now; far where an open point has slipped beside the face.
+/// The gaps at both points by now; far where the owner has slipped off the face.
 #[inline(always)]
 pub(super) fn gaps(block: &Block, a: &Lanes, b: &Lanes) -> [Eight; 2] {
     let (dx, dz) = (b[X] - a[X], b[Z] - a[Z]);
@@ -154,9 +154,7 @@ pub(super) fn gaps(block: &Block, a: &Lanes, b: &Lanes) -> [Eight; 2] {
     let on_face = (slipped - block.slip_back).min(block.slip_on - slipped);
     let gap = |k: usize| {
         let now = block.gap[k] + along_n + block.lever_b[k] * b[TURN] - block.lever_a[k] * a[TURN];
-        let beside = on_face.pick(now, Eight::all(super::touch::FAR));
-        // What already touches is slid off its face no further than a step goes.
-        (-block.gap[k]).pick(now, beside)
+        on_face.pick(now, Eight::all(super::touch::FAR))
     };
     [gap(0), gap(1)]
 }
