@@ -91,18 +91,18 @@ impl<F: Fn(usize) -> Frame + Copy> Work for Look<'_, F> {
             let points = Points::of(&pairs, pairs.best(&Loyal::of(&last)));
             for k in (0..keys.len()).filter(|k| may.0[*k] > 0.0) {
                 let seam = bodies.seams.concern(one[k].index) || bodies.seams.concern(two[k].index);
-                let touch = match points.touches(k).filter(|_| deep.0[k] < 0.0 && !seam) {
-                    None => Touch::find(bodies, (one[k], two[k]), pairs.margin.0[k], last[k], earlier),
-                    Some(false) => None,
+                match points.touches(k).filter(|_| deep.0[k] < 0.0 && !seam) {
+                    None => {
+                        touches.extend(Touch::find(bodies, (one[k], two[k]), pairs.margin.0[k], last[k], earlier));
+                    }
+                    Some(false) => {}
                     Some(true) => {
-                        let mut touch = points.touch(k, bodies, (&one[k], &two[k]));
-                        if let Some(last) = last[k] {
+                        touches.push(points.touch(k, bodies, (&one[k], &two[k])));
+                        if let (Some(touch), Some(last)) = (touches.last_mut(), last[k]) {
                             touch.remember(last);
                         }
-                        Some(touch)
                     }
-                };
-                touches.extend(touch);
+                }
             }
         }
     }
