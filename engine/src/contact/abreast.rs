@@ -45,8 +45,8 @@ impl Side {
         let pair = [zero; 2];
         let (mut o, mut axis, mut low, mut high, mut v, mut acceleration) = (pair, pair, pair, pair, pair, pair);
         let (mut omega, mut angular) = (zero, zero);
-        for k in 0..LANES {
-            let Placed { body, frame, rect, .. } = placed[k];
+        for (k, placed) in placed.iter().enumerate() {
+            let &Placed { body, frame, rect, .. } = placed;
             let motion = &bodies.motion[body];
             (o[0].0[k], o[1].0[k]) = (frame.o.x, frame.o.y);
             (axis[0].0[k], axis[1].0[k]) = (frame.cos, frame.sin);

@@ -6,7 +6,7 @@ use super::touch::Touch;
 use crate::advance::frame_before;
 use crate::area::{Rect, Vec2};
 use crate::broad_phase::bounds::sweep;
-use crate::broad_phase::grid::Bounds;
+use crate::broad_phase::met::Bounds;
 use crate::detect::manifold::Placed;
 use crate::flight::Path;
 use crate::plan::BroadPhasePlan;
@@ -70,7 +70,7 @@ fn crowd(seed: u64) -> Scene {
         change(&mut body);
         bodies.push(body);
     };
-    let speed = if seed % 3 == 0 { 0.0 } else { 20.0 };
+    let speed = if seed.is_multiple_of(3) { 0.0 } else { 20.0 };
     for k in 0..3 {
         add(Kind::Fixed, (4.0 * f64::from(k) - 4.0, -0.5), (4.0, 1.0), &mut |_| {});
     }
@@ -93,8 +93,8 @@ fn crowd(seed: u64) -> Scene {
             }
         });
     }
-    let gravity = if seed % 2 == 0 { (0.0, -10.0) } else { (0.0, 0.0) };
-    let drag = if seed % 7 == 0 { (0.3, 0.1) } else { (0.0, 0.0) };
+    let gravity = if seed.is_multiple_of(2) { (0.0, -10.0) } else { (0.0, 0.0) };
+    let drag = if seed.is_multiple_of(7) { (0.3, 0.1) } else { (0.0, 0.0) };
     let settings = Settings { exchange: ExchangeRule::Impulse, friction: 0.4, gravity, drag, ..Settings::default() };
     Scene { settings, bodies, ..Scene::default() }
 }

@@ -2,7 +2,8 @@
 
 use super::swept::SweepAll;
 use crate::bodies::Bodies;
-use crate::broad_phase::grid::{Bounds, Grid, Met, Owner};
+use crate::broad_phase::grid::Grid;
+use crate::broad_phase::met::{Bounds, Met, Owner};
 use crate::detect::manifold::Placed;
 use crate::flight::Pull;
 use crate::plan::BroadPhasePlan;

@@ -3,7 +3,7 @@
 use super::points::root;
 use crate::area::Vec2;
 use crate::bodies::Bodies;
-use crate::broad_phase::grid::{Bounds, Owner};
+use crate::broad_phase::met::{Bounds, Owner};
 use crate::flight::Pull;
 use crate::lanes::{Eight, LANES, transpose};
 use crate::width::Work;
