@@ -34,6 +34,11 @@ impl Owner {
         (self.0 >> 1) as usize
     }
 
+    #[inline(always)]
+    pub(crate) fn is_mobile(self) -> bool {
+        self.0 & 1 != 0
+    }
+
     /// Whether the two can collide: different bodies, one of them mobile.
     #[inline(always)]
     pub(crate) fn can_meet(self, other: Owner) -> bool {
