@@ -54,7 +54,7 @@ fn walls(length: f64) -> [Body; 4] {
     })
 }
 
-fn rectangle(name: String, kind: Kind, width: f64, depth: f64) -> Body {
+pub(crate) fn rectangle(name: String, kind: Kind, width: f64, depth: f64) -> Body {
     let mut body = Body::new(name, kind);
     body.parts.push(Part::Rect(Rect::centred(width, depth)));
     body

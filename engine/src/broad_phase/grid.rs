@@ -11,83 +11,9 @@
 //!
 //! A grid covers all of space by being repeated: two cells far apart that share a place cost comparisons, never a pair.
 
+use super::level::{Class, Level, biggest_below};
+use super::met::{Bounds, Entry, Met, Owner};
 use core::ops::Range;
-
-/// Least and greatest coordinates: x from, z from, x to, z to \[m\].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Bounds(pub(crate) [f64; 4]);
-
-impl Bounds {
-    /// Whether they have anything in common; touching counts.
-    #[inline(always)]
-    pub(crate) fn meet(&self, other: &Bounds) -> bool {
-        let ([x0, z0, x1, z1], [other_x0, other_z0, other_x1, other_z1]) = (self.0, other.0);
-        (x0 <= other_x1) & (other_x0 <= x1) & (z0 <= other_z1) & (other_z0 <= z1)
-    }
-
-    /// The greater of width and depth.
-    #[inline(always)]
-    fn size(&self) -> f64 {
-        let [x0, z0, x1, z1] = self.0;
-        (x1 - x0).max(z1 - z0)
-    }
-}
-
-/// Whose bounds they are: the body, and whether it is mobile.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Owner(u32);
-
-impl Owner {
-    pub(crate) fn new(body: usize, is_mobile: bool) -> Self {
-        Owner((body as u32) << 1 | u32::from(is_mobile))
-    }
-
-    #[inline(always)]
-    pub(crate) fn body(self) -> usize {
-        (self.0 >> 1) as usize
-    }
-
-    /// Whether the two can collide: different bodies, one of them mobile.
-    #[inline(always)]
-    pub(crate) fn can_meet(self, other: Owner) -> bool {
-        (self != other) & ((self.0 | other.0) & 1 != 0)
-    }
-}
-
-/// Bounds in their place, with what is to be known of them.
-#[derive(Clone, Copy, Debug)]
-struct Entry {
-    bounds: Bounds,
-    index: u32,
-    owner: Owner,
-}
-
-/// Bounds whose sizes have the same binary exponent.
-#[derive(Clone, Copy, Debug)]
-struct Class {
-    exponent: u64,
-    count: u32,
-    /// The size of the biggest \[m\].
-    size: f64,
-    /// From where to where lower left corners lie \[m\].
-    low: [f64; 2],
-    high: [f64; 2],
-    /// Which level they are in.
-    level: u32,
-}
-
-/// One class of sizes or several, and their grid.
-#[derive(Clone, Copy, Debug)]
-struct Level {
-    all: Class,
-    /// One over the size of a cell.
-    per_cell: f64,
-    /// Columns, as a power of two, and rows less one: a grid is repeated beyond them.
-    columns: u32,
-    last_row: i32,
-    /// The first of its cells among all.
-    first: u32,
-}
 
 /// The grids' scratch; it allocates until it is warm and never after.
 #[derive(Clone, Debug, Default)]
@@ -101,12 +27,6 @@ pub(crate) struct Grid {
     begins: Vec<u32>,
     entries: Vec<Entry>,
 }
-
-/// Columns and rows are at least so many, as a power of two: neighbouring cells are never the same one.
-const FEWEST: u32 = 3;
-
-/// There are at most about this many cells for each of the bounds.
-const CELLS: u32 = 4;
 
 /// Classes share a level while it has no more entries for each cell than this.
 const CROWD: f64 = 2.0;
@@ -122,7 +42,7 @@ impl Grid {
             self.classify(bounds);
             self.count_into_cells(bounds, 0.0);
         }
-        let nobody = Entry { bounds: Bounds([0.0; 4]), index: 0, owner: Owner(0) };
+        let nobody = Entry { bounds: Bounds([0.0; 4]), index: 0, owner: Owner::new(0, false) };
         self.entries.resize(bounds.len(), nobody);
         // From the last to the first, so that each cell's end moves down to its begin.
         for (index, (bounds, owner)) in bounds.iter().zip(owners).enumerate().rev() {
@@ -203,7 +123,7 @@ impl Grid {
     /// every pair once, in no order. Gives how many were compared.
     #[inline(always)]
     pub(crate) fn visit(&self, from: Range<u32>, met: &mut Met) -> u64 {
-        met.count = 0;
+        met.clear();
         let mut compared = 0;
         for (k, level) in self.levels.iter().enumerate() {
             let cells = level.first.max(from.start)..(level.first + level.cells()).min(from.end);
@@ -296,131 +216,4 @@ impl Grid {
             (begin(from)..begin(whole), begin(start)..begin(end - columns as u32))
         }
     }
-}
-
-/// The class of the biggest sizes with an exponent below that.
-fn biggest_below(classes: &[Class], above: u64) -> Option<usize> {
-    let below = classes.iter().enumerate().filter(|(_, class)| class.exponent < above);
-    below.max_by_key(|(_, class)| class.exponent).map(|(at, _)| at)
-}
-
-impl Class {
-    fn new(exponent: u64) -> Self {
-        let (low, high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-        Class { exponent, count: 0, size: 0.0, low, high, level: 0 }
-    }
-
-    #[inline(always)]
-    fn take_in(&mut self, bounds: &Bounds, size: f64) {
-        self.count += 1;
-        self.size = self.size.max(size);
-        for k in 0..2 {
-            self.low[k] = self.low[k].min(bounds.0[k]);
-            self.high[k] = self.high[k].max(bounds.0[k]);
-        }
-    }
-
-    /// These and smaller ones.
-    fn joined(&self, smaller: &Class) -> Class {
-        let mut all = Class { count: self.count + smaller.count, ..*self };
-        for k in 0..2 {
-            all.low[k] = all.low[k].min(smaller.low[k]);
-            all.high[k] = all.high[k].max(smaller.high[k]);
-        }
-        all
-    }
-
-    /// Columns or rows of cells as big as the biggest that cover all corners.
-    fn across(&self, k: usize) -> f64 {
-        if self.size > 0.0 { (self.high[k] - self.low[k]) / self.size + 1.0 } else { 1.0 }
-    }
-
-    /// How many cells as big as the biggest cover all corners.
-    fn cells(&self) -> f64 {
-        self.across(0) * self.across(1)
-    }
-}
-
-/// Cells are so much bigger than the biggest entry that it reaches into no more than the next, however its place is rounded.
-const SLACK: f64 = 1e-6;
-
-impl Level {
-    /// Chooses columns and rows: enough to cover all corners, but not many more cells than entries.
-    fn new(all: Class) -> Self {
-        let per_cell = if all.size > 0.0 { 1.0 / (all.size * (1.0 + SLACK)) } else { 0.0 };
-        let most = (CELLS * all.count).ilog2().max(2 * FEWEST);
-        let bits = |k: usize| {
-            (all.across(k) as u32)
-                .saturating_add(1)
-                .checked_next_power_of_two()
-                .map_or(31, u32::ilog2)
-                .clamp(FEWEST, most)
-        };
-        let (mut columns, mut rows) = (bits(0), bits(1));
-        while columns + rows > most {
-            *(if columns > rows { &mut columns } else { &mut rows }) -= 1;
-        }
-        Level { all, per_cell, columns, last_row: (1 << rows) - 1, first: 0 }
-    }
-
-    fn cells(&self) -> u32 {
-        (self.last_row as u32 + 1) << self.columns
-    }
-
-    /// The column of an x, or the row of a z.
-    #[inline(always)]
-    fn cell_of(&self, x: f64) -> i32 {
-        floor(x * self.per_cell)
-    }
-
-    #[inline(always)]
-    fn cell(&self, column: i32, row: i32) -> u32 {
-        let column = column & ((1 << self.columns) - 1);
-        self.first + (((row & self.last_row) << self.columns) | column) as u32
-    }
-
-    /// Of two levels one looks through the other: the few big ones through many small ones, else the small ones through the big.
-    fn looks_through(&self, other: &Level) -> bool {
-        if self.all.exponent > other.all.exponent { self.is_few_beside(other) } else { !other.is_few_beside(self) }
-    }
-
-    /// Whether these few entries look through a level of smaller ones with less work than those through this one.
-    fn is_few_beside(&self, smaller: &Level) -> bool {
-        let rows = f64::from(smaller.last_row + 1).min(2.0 * self.all.size * smaller.per_cell + 2.0);
-        f64::from(self.all.count) * rows < f64::from(smaller.all.count)
-    }
-}
-
-/// Pairs of bounds that meet, by their indices.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Met {
-    pairs: Vec<(u32, u32)>,
-    count: usize,
-}
-
-impl Met {
-    /// The pairs gathered since they were last looked for, in no order.
-    pub(crate) fn pairs(&self) -> &[(u32, u32)] {
-        &self.pairs[..self.count]
-    }
-
-    /// Keeps those of some entries that meet one, without a branch on which they are: that cannot be foreseen. Every pair is
-    /// written, only those that meet are counted.
-    #[inline(always)]
-    fn gather(&mut self, one: &Entry, some: &[Entry]) {
-        if self.count + some.len() > self.pairs.len() {
-            self.pairs.resize((self.count + some.len()).max(2 * self.pairs.len()), (0, 0));
-        }
-        for two in some {
-            self.pairs[self.count] = (one.index.min(two.index), one.index.max(two.index));
-            self.count += usize::from(one.bounds.meet(&two.bounds) & one.owner.can_meet(two.owner));
-        }
-    }
-}
-
-/// ⌊x⌋ as a whole number; far out it stays at the ends of a range wide enough for any number of cells.
-#[inline(always)]
-fn floor(x: f64) -> i32 {
-    let towards_zero = x.clamp(-1e9, 1e9) as i32;
-    towards_zero - i32::from(f64::from(towards_zero) > x)
 }

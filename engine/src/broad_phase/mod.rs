@@ -6,6 +6,8 @@
 pub mod all_pairs;
 pub(crate) mod bounds;
 pub(crate) mod grid;
+mod level;
+pub(crate) mod met;
 mod sight;
 pub mod strips;
 

@@ -3,14 +3,15 @@
 //!
 //! What is rare is left to that: pairs deep in each other, pairs at a seam, pairs whose best face is passed by.
 
+use super::find::Acting;
 use super::swept::ROOM;
 use super::touch::Touch;
 use crate::bodies::Bodies;
+use crate::broad_phase::met::Owner;
 use crate::detect::Face;
 use crate::detect::complete::PREFERENCE;
 use crate::detect::manifold::Placed;
 use crate::detect::near::{DEEP, LOYALTY};
-use crate::flight::Pull;
 use crate::lanes::{Eight, LANES};
 
 /// Two numbers along x and z, in every lane.
@@ -40,13 +41,13 @@ pub(super) struct Side {
 
 impl Side {
     #[inline(always)]
-    pub(super) fn of(bodies: &Bodies, pulls: &[Pull], placed: &[Placed; LANES]) -> Side {
+    pub(super) fn of(bodies: &Bodies, acting: Acting, placed: &[(Placed, Owner); LANES]) -> Side {
         let zero = Eight::ZERO;
         let pair = [zero; 2];
         let (mut o, mut axis, mut low, mut high, mut v, mut acceleration) = (pair, pair, pair, pair, pair, pair);
         let (mut omega, mut angular) = (zero, zero);
-        for k in 0..LANES {
-            let Placed { body, frame, rect, .. } = placed[k];
+        for (k, (placed, owner)) in placed.iter().enumerate() {
+            let &Placed { body, frame, rect, .. } = placed;
             let motion = &bodies.motion[body];
             (o[0].0[k], o[1].0[k]) = (frame.o.x, frame.o.y);
             (axis[0].0[k], axis[1].0[k]) = (frame.cos, frame.sin);
@@ -54,11 +55,10 @@ impl Side {
             (high[0].0[k], high[1].0[k]) = (rect.x_max, rect.z_max);
             (v[0].0[k], v[1].0[k]) = (motion.v.x, motion.v.y);
             omega.0[k] = motion.omega;
-            if let Some(pull) = pulls.get(body) {
-                let now = pull.a - motion.v * pull.drag.0;
-                (acceleration[0].0[k], acceleration[1].0[k]) = (now.x, now.y);
-                angular.0[k] = pull.alpha - motion.omega * pull.drag.1;
-            }
+            let pull = acting.on(*owner);
+            let now = pull.a - motion.v * pull.drag.0;
+            (acceleration[0].0[k], acceleration[1].0[k]) = (now.x, now.y);
+            angular.0[k] = pull.alpha - motion.omega * pull.drag.1;
         }
         let middle = Eight::all(0.5);
         let half = [middle * (high[0] - low[0]), middle * (high[1] - low[1])];

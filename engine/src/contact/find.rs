@@ -8,12 +8,41 @@ use super::touch::Touch;
 use crate::advance::frame_before;
 use crate::area::Vec2;
 use crate::bodies::Bodies;
+use crate::broad_phase::met::Owner;
 use crate::flight::Pull;
 use crate::frame::Frame;
 use crate::lanes::LANES;
 use crate::plan::FlightPlan;
 use crate::width::Work;
 use crate::world::World;
+
+/// What acts on the bodies over a step.
+#[derive(Clone, Copy)]
+pub(super) struct Acting<'a> {
+    each: &'a [Pull],
+    /// The same on all mobile bodies, unless some are pushed: then nothing has to be read for each.
+    on_all: Option<Pull>,
+}
+
+impl Acting<'_> {
+    #[inline(always)]
+    pub(super) fn on(&self, owner: Owner) -> Pull {
+        match self.on_all {
+            Some(pull) if owner.is_mobile() => pull,
+            Some(_) => Pull::NONE,
+            None => self.each[owner.body()],
+        }
+    }
+}
+
+/// What acts on every mobile body that is not pushed.
+fn acting(flight: FlightPlan) -> Pull {
+    let (a, drag) = match flight {
+        FlightPlan::Free => (Vec2::zeros(), (0.0, 0.0)),
+        FlightPlan::Forced { gravity, drag, .. } => (gravity, drag),
+    };
+    Pull { a, alpha: 0.0, drag }
+}
 
 impl Contacts {
     /// What acts on each body over the step: gravity, drag, pushes. Empty when nothing acts on any.
@@ -22,12 +51,7 @@ impl Contacts {
         if world.plan.flight == FlightPlan::Free && world.pushes.is_empty() {
             return;
         }
-        let (a, drag) = match world.plan.flight {
-            FlightPlan::Free => (Vec2::zeros(), (0.0, 0.0)),
-            FlightPlan::Forced { gravity, drag, .. } => (gravity, drag),
-        };
-        let fixed = Pull::NONE;
-        let mobile = Pull { a, alpha: 0.0, drag };
+        let (fixed, mobile) = (Pull::NONE, acting(world.plan.flight));
         let of = |body: usize| if world.bodies.is_mobile(body) { mobile } else { fixed };
         self.pulls.extend((0..world.bodies.len()).map(of));
         for push in &world.pushes {
@@ -39,13 +63,15 @@ impl Contacts {
 
     /// Finds all touches of the step, and what they remember of the last.
     pub(super) fn find(&mut self, world: &mut World, dt: f64) {
-        let World { plan, bodies, work, .. } = world;
+        let World { plan, bodies, pushes, work, .. } = world;
+        let on_all = pushes.is_empty().then(|| acting(plan.flight));
         core::mem::swap(&mut self.touches, &mut self.before);
         self.touches.clear();
-        self.search.pairs((bodies, &self.pulls, dt), plan.broad_phase, self.width, work);
+        let acting = Acting { each: &self.pulls, on_all };
+        self.search.pairs((bodies, acting, dt), plan.broad_phase, self.width, work);
         let earlier = |body: usize| frame_before(bodies, plan.flight, plan.time_step, body);
-        let Contacts { search, touches, before, pulls, width, .. } = self;
-        width.run(Look { bodies, pulls, search, before, touches, dt, earlier });
+        let Contacts { search, touches, before, width, .. } = self;
+        width.run(Look { bodies, acting, search, before, touches, dt, earlier });
         work.pairs_listed += self.touches.len() as u64;
     }
 }
@@ -53,7 +79,7 @@ impl Contacts {
 /// Looks at all pairs that may touch, eight side by side.
 struct Look<'a, F> {
     bodies: &'a Bodies,
-    pulls: &'a [Pull],
+    acting: Acting<'a>,
     search: &'a Search,
     before: &'a [Touch],
     touches: &'a mut Vec<Touch>,
@@ -67,7 +93,7 @@ impl<F: Fn(usize) -> Frame + Copy> Work for Look<'_, F> {
 
     #[inline(always)]
     fn run(self) {
-        let Look { bodies, pulls, search, before, touches, dt, earlier } = self;
+        let Look { bodies, acting, search, before, touches, dt, earlier } = self;
         let mut next = 0;
         for keys in search.near().chunks(LANES) {
             let mut one = [search.placed(bodies, keys[0].0); LANES];
@@ -75,7 +101,7 @@ impl<F: Fn(usize) -> Frame + Copy> Work for Look<'_, F> {
             for (k, key) in keys.iter().enumerate().skip(1) {
                 (one[k], two[k]) = (search.placed(bodies, key.0), search.placed(bodies, key.1));
             }
-            let pairs = Abreast::new(Side::of(bodies, pulls, &one), Side::of(bodies, pulls, &two), dt);
+            let pairs = Abreast::new(Side::of(bodies, acting, &one), Side::of(bodies, acting, &two), dt);
             let may = pairs.may();
             if may.greatest() < 0.0 {
                 continue;
@@ -90,19 +116,20 @@ impl<F: Fn(usize) -> Frame + Copy> Work for Look<'_, F> {
             let deep = pairs.deep();
             let points = Points::of(&pairs, pairs.best(&Loyal::of(&last)));
             for k in (0..keys.len()).filter(|k| may.0[*k] > 0.0) {
-                let seam = bodies.seams.concern(one[k].index) || bodies.seams.concern(two[k].index);
-                let touch = match points.touches(k).filter(|_| deep.0[k] < 0.0 && !seam) {
-                    None => Touch::find(bodies, (one[k], two[k]), pairs.margin.0[k], last[k], earlier),
-                    Some(false) => None,
+                let (one, two) = (one[k].0, two[k].0);
+                let seam = bodies.seams.concern(one.index) || bodies.seams.concern(two.index);
+                match points.touches(k).filter(|_| deep.0[k] < 0.0 && !seam) {
+                    None => {
+                        touches.extend(Touch::find(bodies, (one, two), pairs.margin.0[k], last[k], earlier));
+                    }
+                    Some(false) => {}
                     Some(true) => {
-                        let mut touch = points.touch(k, bodies, (&one[k], &two[k]));
-                        if let Some(last) = last[k] {
+                        touches.push(points.touch(k, bodies, (&one, &two)));
+                        if let (Some(touch), Some(last)) = (touches.last_mut(), last[k]) {
                             touch.remember(last);
                         }
-                        Some(touch)
                     }
-                };
-                touches.extend(touch);
+                }
             }
         }
     }

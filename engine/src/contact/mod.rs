@@ -18,6 +18,8 @@ mod find;
 mod flying;
 mod look;
 mod meeting;
+#[cfg(test)]
+mod plain;
 mod points;
 mod rest;
 mod rows;

@@ -6,6 +6,7 @@ use crate::area::Vec2;
 use crate::bodies::Bodies;
 use crate::detect::Face;
 use crate::detect::manifold::Placed;
+use crate::detect::near::ONE;
 use crate::exchange::impact::Surface;
 use crate::lanes::{Eight, LANES};
 
@@ -105,7 +106,7 @@ impl Points {
         let small = pairs.small();
         let between = sub(second.vertex, first.vertex);
         let length = root(between[0] * between[0] + between[1] * between[1]);
-        let apart = less(Eight::all(1e-9) * small, length);
+        let apart = less(Eight::all(ONE) * small, length);
         let (any, both) = (first.counts.max(second.counts), first.counts.min(second.counts));
         let two = both.min(apart);
         let swapped = (-first.counts).min(second.counts);

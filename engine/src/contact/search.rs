@@ -1,10 +1,11 @@
 //! Which rectangles are worth a full look: pairs whose swept bounds meet and that no axis holds apart, in order.
 
+use super::find::Acting;
 use super::swept::SweepAll;
 use crate::bodies::Bodies;
-use crate::broad_phase::grid::{Bounds, Grid, Met, Owner};
+use crate::broad_phase::grid::Grid;
+use crate::broad_phase::met::{Bounds, Met, Owner};
 use crate::detect::manifold::Placed;
-use crate::flight::Pull;
 use crate::plan::BroadPhasePlan;
 use crate::width::{self, Width};
 use crate::work::Work;
@@ -30,12 +31,12 @@ impl Search {
     /// The pairs that may touch within a time, in the order of their rectangles: the same whatever way they are found.
     pub(super) fn pairs(
         &mut self,
-        (bodies, pulls, dt): (&Bodies, &[Pull], f64),
+        (bodies, acting, dt): (&Bodies, Acting, f64),
         plan: BroadPhasePlan,
         width: Width,
         work: &mut Work,
     ) {
-        self.sweep((bodies, pulls, dt), width);
+        self.sweep((bodies, acting, dt), width);
         work.bounds += self.bounds.len() as u64;
         self.near.clear();
         let Search { owners, bounds, grid, met, near, .. } = self;
@@ -54,14 +55,15 @@ impl Search {
         &self.near
     }
 
-    /// A rectangle where its body stands.
-    #[inline]
-    pub(super) fn placed<'a>(&self, bodies: &'a Bodies, rect: u32) -> Placed<'a> {
-        let (index, body) = (rect as usize, self.owners[rect as usize].body());
-        Placed { body, frame: &bodies.frame[body], index, rect: &bodies.rects[index] }
+    /// A rectangle where its body stands, and whose it is.
+    #[inline(always)]
+    pub(super) fn placed<'a>(&self, bodies: &'a Bodies, rect: u32) -> (Placed<'a>, Owner) {
+        let (index, owner) = (rect as usize, self.owners[rect as usize]);
+        let body = owner.body();
+        (Placed { body, frame: &bodies.frame[body], index, rect: &bodies.rects[index] }, owner)
     }
 
-    fn sweep(&mut self, (bodies, pulls, dt): (&Bodies, &[Pull], f64), width: Width) {
+    fn sweep(&mut self, (bodies, acting, dt): (&Bodies, Acting, f64), width: Width) {
         let count = bodies.rects.len();
         if self.owners.len() != count {
             self.owners.clear();
@@ -72,7 +74,7 @@ impl Search {
             self.bounds.resize(count, Bounds([0.0; 4]));
         }
         let Search { owners, bounds, .. } = self;
-        width.run(SweepAll { bodies, pulls, owners, dt, bounds });
+        width.run(SweepAll { bodies, acting, owners, dt, bounds });
     }
 
     /// Puts the pairs in order: counted by their first, placed, then each first's by their second.

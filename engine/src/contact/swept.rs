@@ -1,10 +1,10 @@
 //! What every rectangle sweeps over a step, eight at a time.
 
+use super::find::Acting;
 use super::points::root;
 use crate::area::Vec2;
 use crate::bodies::Bodies;
-use crate::broad_phase::grid::{Bounds, Owner};
-use crate::flight::Pull;
+use crate::broad_phase::met::{Bounds, Owner};
 use crate::lanes::{Eight, LANES, transpose};
 use crate::width::Work;
 
@@ -15,7 +15,7 @@ pub(super) const ROOM: f64 = 0.02;
 /// All rectangles over a step, to be computed.
 pub(super) struct SweepAll<'a> {
     pub(super) bodies: &'a Bodies,
-    pub(super) pulls: &'a [Pull],
+    pub(super) acting: Acting<'a>,
     pub(super) owners: &'a [Owner],
     pub(super) dt: f64,
     pub(super) bounds: &'a mut [Bounds],
@@ -26,9 +26,9 @@ impl Work for SweepAll<'_> {
 
     #[inline(always)]
     fn run(self) {
-        let SweepAll { bodies, pulls, owners, dt, bounds } = self;
+        let SweepAll { bodies, acting, owners, dt, bounds } = self;
         for first in (0..owners.len()).step_by(LANES) {
-            let lanes = Lanes::load(bodies, pulls, owners, first);
+            let lanes = Lanes::load(bodies, acting, owners, first);
             let count = LANES.min(owners.len() - first);
             let [x0, z0, x1, z1] = lanes.bounds(dt);
             let zero = Eight::ZERO;
@@ -59,7 +59,7 @@ struct Lanes {
 
 impl Lanes {
     #[inline(always)]
-    fn load(bodies: &Bodies, pulls: &[Pull], owners: &[Owner], first: usize) -> Lanes {
+    fn load(bodies: &Bodies, acting: Acting, owners: &[Owner], first: usize) -> Lanes {
         let zero = Eight::ZERO;
         let mut lanes = Lanes {
             o: [zero; 2],
@@ -83,7 +83,7 @@ impl Lanes {
             for (side, value) in [rect.x_min, rect.x_max, rect.z_min, rect.z_max].into_iter().enumerate() {
                 lanes.rect[side].0[k] = value;
             }
-            let pull = if pulls.is_empty() { Pull::NONE } else { pulls[body] };
+            let pull = acting.on(owners[at]);
             let acceleration: Vec2 = pull.a - motion.v * pull.drag.0;
             (lanes.acceleration[0].0[k], lanes.acceleration[1].0[k]) = (acceleration.x, acceleration.y);
             lanes.angular.0[k] = pull.alpha - motion.omega * pull.drag.1;

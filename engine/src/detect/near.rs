@@ -19,7 +19,7 @@ pub(crate) const LOYALTY: f64 = 1e-3;
 pub(crate) const DEEP: f64 = 0.05;
 
 /// Two points closer together than this share of the smaller rectangle are one.
-const ONE: f64 = 1e-6;
+pub(crate) const ONE: f64 = 1e-6;
 
 /// How two rectangles touched a step ago.
 #[derive(Clone, Copy, Debug)]
