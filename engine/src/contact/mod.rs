@@ -258,17 +258,15 @@ impl Contacts {
         } else {
             self.width.run(Warm { rows: &mut self.rows.rows, blocks: &self.blocks.blocks });
         }
-        if quiet {
-            self.settle_touches(world, h, pulled, fastest);
-        } else {
+        if !quiet {
             self.sweep_touches(world, SWEEPS);
-            self.settle_touches(world, h, pulled, fastest);
-            // A jam has no solution: pushes grow without end, and do harm once it gives way.
-            if self.fliers.gained(&self.rows, self.reach) {
-                self.blocks.forget_pushes();
-                self.fliers.let_go(&mut self.rows);
-                self.sweep_touches(world, FRESH_SWEEPS);
-            }
+        }
+        self.settle_touches(world, h, pulled, fastest);
+        // A jam has no solution: pushes grow without end, and do harm once it gives way.
+        if self.fliers.gained(&self.rows, self.reach) {
+            self.blocks.forget_pushes();
+            self.fliers.let_go(&mut self.rows);
+            self.sweep_touches(world, FRESH_SWEEPS);
         }
         self.fliers.arrive(&mut self.rows, &self.pulls, h);
     }

@@ -63,6 +63,9 @@ pub(super) struct Rest {
     beyond: Vec<Row>,
 }
 
+/// Every touch has two parts that are improved at once: its pushes, and its friction.
+const PARTS: u32 = 2;
+
 /// In rows of this solver the displacements' places hold the shared-out inverse mass and moment.
 const SHARED_MASS: usize = 3;
 const SHARED_MOMENT: usize = 4;
@@ -101,7 +104,7 @@ impl Rest {
         self.now.clear();
         self.now.extend(rows.rows.iter().enumerate().map(|(k, row)| {
             let mut row = *row;
-            let share = rows.mobile_of(k as u32).map_or(1, |at| rows.degree[at]);
+            let share = PARTS * rows.mobile_of(k as u32).map_or(1, |at| rows.degree[at]);
             row.0[SHARED_MASS] = row.0[INVERSE_MASS] * f64::from(share);
             row.0[SHARED_MOMENT] = row.0[INVERSE_MOMENT] * f64::from(share);
             row
@@ -181,13 +184,7 @@ fn improve(block: &Block, shared: &Response, a: &Lanes, b: &Lanes, from: &[Eight
     let [x1, x2] = shared.complement([q1, q2]);
     let mass = a[SHARED_MASS] + b[SHARED_MASS];
     let k = mass + a[SHARED_MOMENT] * block.along_a * block.along_a + b[SHARED_MOMENT] * block.along_b * block.along_b;
-    // The slip once the pushes are better, as far as this touch knows.
-    let turn = |k: usize| {
-        a[SHARED_MOMENT] * block.along_a * block.lever_a[k] + b[SHARED_MOMENT] * block.along_b * block.lever_b[k]
-    };
-    let slip = block.nz * ux - block.nx * uz + block.along_b * b[SPIN] - block.along_a * a[SPIN]
-        + turn(0) * (x1 - from[0])
-        + turn(1) * (x2 - from[1]);
+    let slip = block.nz * ux - block.nx * uz + block.along_b * b[SPIN] - block.along_a * a[SPIN];
     let most = block.friction * (x1 + x2);
     let grip = (from[2] - slip * k.inverse()).min(most).max(-most);
     let change = [shared.k[0] * (x1 - from[0]), shared.k[1] * (x2 - from[1]), k * (grip - from[2])];

@@ -53,7 +53,7 @@ fn barrel(columns: usize, rows: usize, steps: u32) {
     let world = run_watching(&standing(bodies), steps, |world| {
         for id in world.ids().skip(3) {
             let at = world.position(id);
-            assert!(at.x.abs() < half && at.y > 0.0, "{}: {} is out", world.iteration(), world.name(id));
+            assert!(at.x.abs() < half && at.y > 0.0, "{}: {} is out {at}", world.iteration(), world.name(id));
         }
     });
     assert!(world.deepest() < 0.05, "pressed in by {}", world.deepest());
