@@ -51,8 +51,10 @@ use touch::Touch;
 /// Overlaps found at the start of a step are let go at this rate \[1/s\]: a fifth of them in a sixtieth of a second.
 const RECOVERY: f64 = 12.0;
 
-/// Sweeps over all touches in a sub-step.
-const SWEEPS: usize = 2;
+/// Sweeps in a sub-step, to and fro by turns: so many that about as many touches are solved, within limits.
+const SWEPT: usize = 16_000;
+const LEAST_SWEEPS: usize = 2;
+const MOST_SWEEPS: usize = 16;
 
 /// Sweeps where the pushes of the sub-step before were no help and all begins at nothing.
 const FRESH_SWEEPS: usize = 8;
@@ -258,10 +260,15 @@ impl Contacts {
         } else {
             self.width.run(Warm { rows: &mut self.rows.rows, blocks: &self.blocks.blocks });
         }
-        if !quiet {
-            self.sweep_touches(world, SWEEPS);
+        let still = fastest <= STILL * pulled && pulled > 0.0;
+        if still {
+            self.settle_touches(world, h, pulled, fastest);
+        } else {
+            self.sweep_touches(world, (SWEPT / self.touches.len()).clamp(LEAST_SWEEPS, MOST_SWEEPS));
+            let most = (BUDGET / self.touches.len() as u32).min(PATIENCE);
+            let Settled { rounds, .. } = self.settle_for(Effort { pulled, most });
+            world.work.touches_solved += u64::from(rounds) * self.touches.len() as u64;
         }
-        self.settle_touches(world, h, pulled, fastest);
         // A jam has no solution: pushes grow without end, and do harm once it gives way.
         if self.fliers.gained(&self.rows, self.reach) {
             self.blocks.forget_pushes();
@@ -271,21 +278,12 @@ impl Contacts {
         self.fliers.arrive(&mut self.rows, &self.pulls, h);
     }
 
-    /// Improves all touches together, for as long as it is worth it.
+    /// Improves all touches of a scene that stands still together, for as long as it is worth it.
     fn settle_touches(&mut self, world: &mut World, h: f64, pulled: f64, fastest: f64) {
         let few = (BUDGET / self.touches.len() as u32).min(PATIENCE);
-        let still = fastest <= STILL * pulled && pulled > 0.0;
-        let from_rest = fastest == 0.0 && still;
-        let most = if from_rest {
-            PATIENCE
-        } else if still {
-            self.patience.max(few)
-        } else {
-            few
-        };
-        let first = if still { FIRST.min(most) } else { most };
-        let Settled { mut rounds, left, enough } = self.settle_for(Effort { pulled, most: first });
-        if still && !enough {
+        let most = if fastest == 0.0 { PATIENCE } else { self.patience.max(few) };
+        let Settled { mut rounds, left, enough } = self.settle_for(Effort { pulled, most: FIRST.min(most) });
+        if !enough {
             if left > UNBALANCED * pulled {
                 let pull = world.plan.gravity() * h;
                 weights::guess(&mut self.touches, &self.of_touch, &self.rows, &world.bodies, pull, self.band);
