@@ -7,6 +7,8 @@
 //! | `x`, `z`, `depth`, `relocated` | where, how deep, and how far a body was moved, in m |
 //! | `kinetic_energy_…` | what each cause changed of it, in J |
 //! | `momentum_x`, `momentum_z`, `angular_momentum` | what the exchange changed of them in all |
+//!
+//! Contacts that last are no exchanges and have no rows; what they change is in the totals.
 
 use std::fs::File;
 use std::io::{self, Seek};

@@ -7,6 +7,7 @@ use crate::bodies::Motion;
 use crate::flight::{Path, Pull};
 use crate::forces::Flight;
 use crate::frame::Frame;
+use crate::lanes::LANES;
 
 /// A change of motion within a sub-step no greater than this many times what gravity would do is a force's, and acts all
 /// along; a greater one is an impact's, and acts from the start.
@@ -17,21 +18,42 @@ const TWICE: f64 = 4.0;
 
 /// What a body in contact remembers over a sub-step.
 #[derive(Clone, Copy, Debug, Default)]
-struct Flier {
+pub(super) struct Flier {
     /// Its motion when the sub-step began: vx, vz, spin.
     start: [f64; 3],
     /// Its motion at the end were there no contact.
-    free: [f64; 3],
+    pub(super) free: [f64; 3],
     /// How far it would come: x, z, turn.
     way: [f64; 3],
     /// What contact changed in the sub-step before: contacts that last do it again.
     carried: [f64; 3],
 }
 
+impl Flier {
+    /// Whether what changed its motion to that of its row acted all along the sub-step.
+    pub(super) fn is_forced(&self, row: &[f64; LANES], pull: Option<&Pull>, h: f64) -> bool {
+        let (dx, dz) = (row[VX] - self.start[0], row[VZ] - self.start[1]);
+        let pulled = pull.map_or(0.0, |pull| pull.a.norm_squared());
+        dx * dx + dz * dz <= FORCEFUL * FORCEFUL * pulled * h * h
+    }
+
+    /// What contact changed of its motion.
+    fn changed(&self, row: &[f64; LANES]) -> [f64; 3] {
+        [row[VX] - self.free[0], row[VZ] - self.free[1], row[SPIN] - self.free[2]]
+    }
+
+    /// How far it goes in what is left of the sub-step: x, z, turn.
+    pub(super) fn goes(&self, row: &[f64; LANES], left: f64, by_force: bool) -> [f64; 3] {
+        let share = if by_force { 0.5 * left } else { left };
+        let changed = self.changed(row);
+        core::array::from_fn(|k| self.way[k] + share * changed[k])
+    }
+}
+
 /// All bodies in contact, in the order of their rows.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Fliers {
-    fliers: Vec<Flier>,
+    pub(super) fliers: Vec<Flier>,
     /// How much of the sub-step each row has used up in impacts \[s\], and which have any.
     pub(super) spent: Vec<f64>,
     pub(super) spenders: Vec<u32>,
@@ -147,15 +169,12 @@ impl Fliers {
         for (k, flier) in self.fliers.iter_mut().enumerate() {
             let row = &mut rows.rows[IDLE + k].0;
             let left = h - self.spent[IDLE + k];
-            let pulled = if pulls.is_empty() { 0.0 } else { pulls[rows.mobile[k] as usize].a.norm_squared() };
-            let changed = [row[VX] - flier.free[0], row[VZ] - flier.free[1], row[SPIN] - flier.free[2]];
-            let (dx, dz) = (row[VX] - flier.start[0], row[VZ] - flier.start[1]);
-            let by_force = dx * dx + dz * dz <= FORCEFUL * FORCEFUL * pulled * h * h;
-            let share = if by_force { 0.5 * left } else { left };
+            let by_force = flier.is_forced(row, pulls.get(rows.mobile[k] as usize), h);
+            let goes = flier.goes(row, left, by_force);
+            flier.carried = flier.changed(row);
             for (k, d) in [X, Z, TURN].into_iter().enumerate() {
-                row[d] += flier.way[k] + share * changed[k];
+                row[d] += goes[k];
             }
-            flier.carried = changed;
         }
         let fixed = IDLE + rows.mobile.len();
         for (row, spent) in rows.rows[fixed..].iter_mut().zip(&self.spent[fixed..]) {

@@ -14,6 +14,7 @@
 
 mod abreast;
 mod blocks;
+mod booked;
 mod find;
 mod flying;
 mod look;
@@ -185,6 +186,7 @@ impl World {
         self.set_out_on_courses(time, dt);
         contacts.find(self, dt);
         contacts.lay_out(self, dt);
+        contacts.open_books(self, time - dt);
         if !contacts.touches.is_empty() {
             let h = dt / f64::from(substeps);
             contacts.fliers.begin(&contacts.rows, &contacts.pulls, &contacts.touches, &contacts.of_touch, h);
@@ -196,6 +198,7 @@ impl World {
         }
         contacts.settle(self);
         self.fly_alone(contacts, dt);
+        contacts.close_books(self, dt);
         for prescription in &self.movers.prescribed {
             prescription.apply(&mut self.bodies, time);
         }
@@ -275,6 +278,7 @@ impl Contacts {
             self.fliers.let_go(&mut self.rows);
             self.sweep_touches(world, FRESH_SWEEPS);
         }
+        self.book_substep(world, h);
         self.fliers.arrive(&mut self.rows, &self.pulls, h);
     }
 

@@ -42,6 +42,9 @@ impl Contacts {
                 let (a, b) = (touch.a.min(touch.b), touch.a.max(touch.b));
                 let kind = PairKind::of(world.bodies.role[a as usize], world.bodies.role[b as usize]);
                 world.work.count_exchange(kind);
+                if let Some(ledger) = &mut world.ledger {
+                    ledger.enter_touch(k);
+                }
                 self.untold.push(Hit {
                     iteration: world.iteration,
                     a: BodyId(a),

@@ -198,6 +198,7 @@ impl Contacts {
         for (row, (path, flies)) in [row_a, row_b].into_iter().zip(paths.iter().zip(flies)) {
             if flies {
                 self.fliers.go_on(&mut self.rows, row, path, time);
+                self.book_ahead(world, row, time);
             }
         }
         let moved = paths.map(|path| path.after(time));
@@ -218,7 +219,7 @@ impl Contacts {
                 world.bodies.surface[body].restitution = 0.0;
             }
         }
-        let act = world.act(manifold);
+        let act = self.act(world, self.of_touch[k], manifold);
         for ((row, body), (frame, surface)) in [row_a, row_b].into_iter().zip(pair).zip(stood) {
             let motion = world.bodies.motion[body];
             let row = &mut self.rows.rows[row as usize].0;

@@ -10,6 +10,7 @@ use super::forecast::Pair;
 use super::lasting::{self, BAND, standing};
 use crate::bodies::Bodies;
 use crate::exchange::together;
+use crate::plan::ExchangePlan;
 use crate::world::World;
 
 /// How often a body may be hit at one instant before it is taken to be jammed: enough for a pile that settles, and finite.
@@ -42,7 +43,8 @@ impl Continuous {
             return;
         }
         self.jams += 1;
-        if self.jams > MOST_JAMS {
+        // The document's exchange knows no acting together.
+        if self.jams > MOST_JAMS || world.plan.exchange != ExchangePlan::Impulse {
             self.hold_stuck((pair.a, pair.b));
         } else {
             self.unjam(world, pair);

@@ -41,6 +41,11 @@ impl Amounts {
         Amounts { kinetic_energy: 0.0, momentum_x: p.x, momentum_z: p.y, angular_momentum: cross(at, p) }
     }
 
+    /// What a change of spin does, leaving its work aside.
+    pub(super) fn of_twist(angular_momentum: f64) -> Self {
+        Amounts { angular_momentum, ..Amounts::default() }
+    }
+
     pub(super) fn of_energy(kinetic_energy: f64) -> Self {
         Amounts { kinetic_energy, ..Amounts::default() }
     }
@@ -88,7 +93,8 @@ macro_rules! causes {
 
 causes! {
     /// What collisions do by themselves. The document's exchange: what its rule does at μ_L = μ_A = 1, the fixed body's own
-    /// motion taken as zero. The impulse exchange: the momentum that fixed bodies take up along the normal.
+    /// motion taken as zero. The impulse exchange: the momentum that fixed bodies take up along the normal, and where contacts are
+    /// solved in sub-steps the little angular momentum that comes of two bodies slipping past each other within one.
     Exchange: "exchange",
     /// What μ_L < 1 changes of that, then.
     MuL: "mu_l",
@@ -100,7 +106,8 @@ causes! {
     /// The impulse exchange: the work of the tangential impulses, and the momentum that fixed bodies take up along the
     /// tangent.
     Friction: "friction",
-    /// Bodies put elsewhere so that pairs part: an angular momentum, for they go on with the same velocity from there.
+    /// Bodies put elsewhere so that pairs part, or overlaps be let go: an angular momentum, for they go on with the same velocity
+    /// from there.
     Relocation: "relocation",
     /// Drag.
     Drag: "drag",

@@ -4,7 +4,7 @@ use super::Ledger;
 use super::amounts::{Amounts, Cause, State, cross};
 use super::wide::Sums;
 use crate::area::Vec2;
-use crate::bodies::{Bodies, Motion};
+use crate::bodies::{Bodies, Inertia, Motion};
 use crate::flight::Path;
 use crate::forces::Flight;
 use crate::plan::FlightPlan;
@@ -25,6 +25,31 @@ pub(crate) struct Forces {
     pub(crate) worked: (f64, f64),
     /// Decay rates of velocity and of spin \[1/s\].
     pub(crate) drag: (f64, f64),
+}
+
+/// A flight under forces constant in time.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Way {
+    /// How long it took \[s\].
+    pub(super) time: f64,
+    /// How far it led \[m\], and how far round \[rad\].
+    pub(super) shift: Vec2,
+    pub(super) turn: f64,
+    /// The place, summed over the time \[m·s\].
+    pub(super) lever: Vec2,
+}
+
+impl Way {
+    /// What a force and a torque did on the way, given as accelerations.
+    pub(super) fn given(&self, Inertia { mass, moment }: Inertia, acceleration: Motion) -> Amounts {
+        let (force, torque) = (acceleration.v * mass, acceleration.omega * moment);
+        Amounts {
+            kinetic_energy: force.dot(&self.shift) + torque * self.turn,
+            momentum_x: force.x * self.time,
+            momentum_z: force.y * self.time,
+            angular_momentum: cross(self.lever, force) + torque * self.time,
+        }
+    }
 }
 
 impl Ledger {
@@ -68,7 +93,15 @@ impl Ledger {
 
     /// Books one flight. Forces constant in time have their work and their torque in closed form; drag is the rest, and
     /// without drag the rest is rounding.
-    fn book_flight(&mut self, bodies: &Bodies, body: usize, time: f64, forces: &Forces, from: State, to: State) {
+    pub(super) fn book_flight(
+        &mut self,
+        bodies: &Bodies,
+        body: usize,
+        time: f64,
+        forces: &Forces,
+        from: State,
+        to: State,
+    ) {
         let Forces { gravity, pushed, pressed, rubbed, worked, drag } = *forces;
         let inertia = bodies.inertia[body];
         let falls = Motion { v: gravity, omega: 0.0 };
@@ -89,17 +122,13 @@ impl Ledger {
         let shift = from.motion.v * linear.reach + a * linear.fall;
         let turn = from.motion.omega * angular.reach + alpha * angular.fall;
         let lever = from.o * time + from.motion.v * linear.fall + a * fall_summed(drag.0, time);
+        let way = Way { time, shift, turn, lever };
         let mut rest = Sums::of_change(inertia, from, to);
         for (cause, acceleration, power) in acting.into_iter().filter(|(_, a, _)| *a != Motion::default()) {
-            let (force, torque) = (acceleration.v * inertia.mass, acceleration.omega * inertia.moment);
             let by_fixed = Amounts::of_energy(power * time);
-            let work = Amounts::of_energy(force.dot(&shift) + torque * turn) - by_fixed;
-            let given = Amounts {
-                kinetic_energy: 0.0,
-                momentum_x: force.x * time,
-                momentum_z: force.y * time,
-                angular_momentum: cross(lever, force) + torque * time,
-            };
+            let all = way.given(inertia, acceleration);
+            let work = Amounts::of_energy(all.kinetic_energy) - by_fixed;
+            let given = Amounts { kinetic_energy: 0.0, ..all };
             // As at an impact: the work of what presses is restitution's, its momentum the exchange's.
             let worker = if cause == Cause::Exchange { Cause::Restitution } else { cause };
             for (cause, amounts) in [(Cause::FixedBodies, by_fixed), (worker, work), (cause, given)] {
@@ -112,7 +141,7 @@ impl Ledger {
 }
 
 /// ∫C dt: the place summed over the time of a flight, per acceleration \[s³\], for a decay rate k.
-fn fall_summed(k: f64, time: f64) -> f64 {
+pub(super) fn fall_summed(k: f64, time: f64) -> f64 {
     let y = k * time;
     if y > 0.5 {
         return (0.5 * time * time - Flight::new(k, time).fall) / k;

@@ -9,6 +9,7 @@
 //! to the bit.
 
 mod amounts;
+mod contact;
 mod flight;
 mod handing;
 mod impact;
@@ -21,6 +22,8 @@ use crate::bodies::Bodies;
 use crate::world::World;
 use amounts::State;
 pub use amounts::{Amounts, Booked, Cause};
+use contact::InContact;
+pub(crate) use contact::{Pressing, Stint};
 pub(crate) use flight::Forces;
 pub(crate) use handing::Handing;
 use wide::{Sum, Sums};
@@ -39,6 +42,8 @@ pub struct Ledger {
     now: f64,
     /// How bodies were before they flew.
     set_out: Vec<State>,
+    /// What is known of bodies and touches while contacts are solved.
+    contact: InContact,
 }
 
 /// One exchange in the books.
@@ -77,7 +82,8 @@ impl Ledger {
         self.relocations
     }
 
-    /// The exchanges of the iteration, each in the place of its [`Hit`](crate::Hit).
+    /// The exchanges of the iteration, each in the place of its [`Hit`](crate::Hit). Contacts that last have none: what they change is
+    /// only booked.
     #[must_use]
     pub fn entries(&self) -> &[Entry] {
         &self.entries
@@ -133,6 +139,7 @@ impl World {
             entries: Vec::new(),
             now: self.time(),
             set_out: Vec::new(),
+            contact: InContact::default(),
         });
         let mut has = Sums::default();
         for body in self.movers.mobile.iter().map(|body| *body as usize) {

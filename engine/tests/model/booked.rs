@@ -8,7 +8,7 @@ use crate::body;
 use crate::continuous::{block, impulse, wall};
 
 /// The world right after its first exchange, the ledger kept from the start.
-fn after_first_hit(scene: &Scene) -> World {
+pub(crate) fn after_first_hit(scene: &Scene) -> World {
     let mut world = World::new(scene).expect("a valid scene");
     world.keep_ledger();
     while world.iteration() < 1000 {
@@ -21,12 +21,12 @@ fn after_first_hit(scene: &Scene) -> World {
     panic!("nothing met");
 }
 
-fn booked(world: &World, cause: Cause) -> Amounts {
+pub(crate) fn booked(world: &World, cause: Cause) -> Amounts {
     world.ledger().expect("it is kept").booked(cause)
 }
 
 /// Holds the kinetic energy by cause to what is expected; causes that are not named are held to 0.
-fn assert_energies(world: &World, expected: &[(Cause, f64)], tolerance: f64) {
+pub(crate) fn assert_energies(world: &World, expected: &[(Cause, f64)], tolerance: f64) {
     for cause in Cause::ALL {
         let wanted = expected.iter().find(|(known, _)| *known == cause).map_or(0.0, |(_, energy)| *energy);
         let found = booked(world, cause).kinetic_energy;
@@ -174,7 +174,7 @@ fn alone(settings: Settings) -> World {
     world
 }
 
-fn steps(world: &mut World, count: u32) {
+pub(crate) fn steps(world: &mut World, count: u32) {
     (0..count).for_each(|_| world.step());
 }
 
@@ -256,7 +256,8 @@ fn a_push_against_gravity_has_its_own_work() {
 /// What rests on a floor is held: the floor gives back what gravity takes. On a lift, the lift works m g h.
 #[test]
 fn what_rests_is_held_and_a_lift_works() {
-    for speed in [0.0, 0.5] {
+    let motions = [MotionRule::Stepped, MotionRule::Continuous];
+    for (speed, motion) in [0.0, 0.5].into_iter().flat_map(|speed| motions.map(|motion| (speed, motion))) {
         let mut floor = Body::new("floor", Kind::Fixed);
         floor.parts = wall("floor", (9.0, 1.0), (0.0, 0.0)).parts;
         floor.at = (0.0, -0.5);
@@ -264,7 +265,7 @@ fn what_rests_is_held_and_a_lift_works() {
             floor.patrol = Some(Patrol { points: vec![(0.0, 99.5)], speed });
         }
         let mut scene = impulse(0.0, 1.0 / 64.0, vec![floor, block("b", (1.0, 1.0), (2.0, 0.5), (0.0, speed), 3.0)]);
-        scene.settings.gravity = (0.0, -10.0);
+        (scene.settings.gravity, scene.settings.motion) = ((0.0, -10.0), motion);
         let mut world = World::new(&scene).expect("a valid scene");
         world.keep_ledger();
         steps(&mut world, 128); // 2 s

@@ -7,7 +7,7 @@ use choque_engine::{BodyId, Vec2, World};
 use crate::continuous::{block, impulse, wall};
 use crate::random_scenes::{Random, random_scene};
 
-fn kept(scene: &Scene) -> World {
+pub(crate) fn kept(scene: &Scene) -> World {
     let mut world = World::new(scene).expect("a valid scene");
     world.keep_ledger();
     world
@@ -38,20 +38,20 @@ fn sizes(world: &World) -> [f64; 4] {
 }
 
 /// Holds the books of a world to closing.
-struct Audit {
+pub(crate) struct Audit {
     /// The largest amounts there have been: what bodies had, what was booked in all, and of one exchange. Rounding is
     /// measured by them.
     sizes: [f64; 4],
     /// The largest gap there has been, of the sizes.
-    worst: f64,
+    pub(crate) worst: f64,
 }
 
 impl Audit {
-    fn of(world: &World) -> Self {
+    pub(crate) fn of(world: &World) -> Self {
         Audit { sizes: sizes(world), worst: 0.0 }
     }
 
-    fn look(&mut self, world: &World) {
+    pub(crate) fn look(&mut self, world: &World) {
         let ledger = world.ledger().expect("it is kept");
         let of_ledger = Cause::ALL.map(|cause| ledger.booked(cause).to_array());
         let of_entries = ledger.entries().iter().map(|entry| Cause::ALL.map(|cause| entry.booked[cause].to_array()));
@@ -99,7 +99,7 @@ fn pile(seed: u64) -> Scene {
 }
 
 /// What a script may do before an iteration.
-fn command(world: &mut World, random: &mut Random) {
+pub(crate) fn command(world: &mut World, random: &mut Random) {
     let ids: Vec<BodyId> = world.ids().collect();
     let id = ids[random.next() as usize % ids.len()];
     let vector = Vec2::new(random.between(-5.0, 5.0), random.between(-5.0, 5.0));
@@ -162,12 +162,13 @@ fn the_books_of_a_pile_close() {
     }
 }
 
-/// What is booked of exchanges is what their entries say; the rest has none.
+/// What is booked of exchanges is what their entries say; the rest has none. (So do the impulses of contacts that last, which
+/// stepped motion has after every hit: `booked_contacts.rs`.)
 #[test]
 fn the_entries_of_random_scenes_add_up() {
     let mut exchanges = 0;
-    for seed in 24..84 {
-        let scene = varied(seed);
+    let scenes = (24..84).map(|seed| (seed, varied(seed)));
+    for (seed, scene) in scenes.filter(|(_, scene)| scene.settings.exchange == ExchangeRule::Document) {
         let mut world = kept(&scene);
         let mut sums = Cause::ALL.map(|_| [0.0; 4]);
         let mut sizes = 1e-300;

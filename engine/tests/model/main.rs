@@ -1,6 +1,7 @@
 //! The document's model, held to worked values, to its formulas, and to itself.
 
 mod booked;
+mod booked_contacts;
 mod collisions;
 mod continuous;
 mod crowds;

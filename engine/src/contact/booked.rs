@@ -1,0 +1,131 @@
+//! What the contact solver tells the ledger, where one is kept.
+
+use super::Contacts;
+use super::rows::{IDLE, SPIN, VX, VZ, X, Z};
+use super::sweep::{Arms, gather};
+use crate::area::Vec2;
+use crate::bodies::Motion;
+use crate::detect::manifold::Manifold;
+use crate::exchange::impulse::Act;
+use crate::lanes::{Eight, LANES};
+use crate::ledger::{Forces, Pressing, Stint};
+use crate::plan::Plan;
+use crate::world::World;
+
+impl Contacts {
+    /// Bodies and touches are laid out for a part of a step, from that time on.
+    pub(super) fn open_books(&self, world: &mut World, began: f64) {
+        if let Some(ledger) = &mut world.ledger {
+            ledger.open_contacts(&world.bodies, self.touches.len(), began);
+        }
+    }
+
+    /// A row's body has flown ahead of the others.
+    pub(super) fn book_ahead(&self, world: &mut World, row: u32, time: f64) {
+        let (Some(ledger), Some(at)) = (&mut world.ledger, self.rows.mobile_of(row)) else { return };
+        let body = self.rows.mobile[at] as usize;
+        let (come, motion) = place_and_motion(&self.rows.rows[row as usize].0);
+        ledger.fly_ahead(&world.bodies, body, (time, self.forces(&world.plan, body)), (come, motion));
+    }
+
+    /// An impact of the bodies of two rows, which stand where they meet for the moment.
+    pub(super) fn act(&self, world: &mut World, (row_a, row_b): (u32, u32), manifold: &Manifold) -> Option<Act> {
+        let mobile = || [row_a, row_b].into_iter().filter_map(|row| self.rows.mobile_of(row));
+        let pair = || mobile().map(|at| self.rows.mobile[at] as usize);
+        if let Some(ledger) = &mut world.ledger {
+            let spent = mobile().map(|at| self.fliers.spent[IDLE + at]).fold(0.0, f64::max);
+            ledger.meet(&world.bodies, pair(), spent);
+        }
+        let act = world.act(manifold);
+        if let Some(ledger) = &mut world.ledger {
+            ledger.part(&world.bodies, pair());
+        }
+        act
+    }
+
+    /// Touches are solved, and bodies are about to go where that takes them.
+    pub(super) fn book_substep(&self, world: &mut World, h: f64) {
+        let World { ledger: Some(ledger), bodies, plan, .. } = world else { return };
+        for (k, &body) in self.rows.mobile.iter().enumerate() {
+            let stint = self.stint(k, h);
+            ledger.book_stint(bodies, &stint, &self.forces(plan, body as usize));
+        }
+        for touch in 0..self.touches.len() {
+            if let Some(pressing) = self.pressing(touch) {
+                ledger.book_pressing(bodies, &pressing);
+            }
+        }
+        ledger.close_substep(h);
+    }
+
+    /// Bodies stand where they have come to.
+    pub(super) fn close_books(&self, world: &mut World, dt: f64) {
+        let World { ledger: Some(ledger), bodies, movers, plan, .. } = world else { return };
+        let solved = !self.touches.is_empty();
+        for body in movers.mobile.iter().filter(|body| !(solved && self.rows.has(**body))) {
+            ledger.flown_alone(bodies, *body as usize, dt, &self.forces(plan, *body as usize));
+        }
+        for (k, body) in self.rows.mobile.iter().enumerate().filter(|_| solved) {
+            ledger.settle_in(bodies, *body as usize, place_and_motion(&self.rows.rows[IDLE + k].0).0);
+        }
+    }
+
+    /// What acts on a mobile body, by cause.
+    fn forces(&self, plan: &Plan, body: usize) -> Forces {
+        let Some(pull) = self.pulls.get(body) else { return Forces::default() };
+        let gravity = plan.gravity();
+        let pushed = Motion { v: pull.a - gravity, omega: pull.alpha };
+        Forces { gravity, pushed, drag: pull.drag, ..Forces::default() }
+    }
+
+    fn stint(&self, k: usize, h: f64) -> Stint {
+        let (row, flier) = (&self.rows.rows[IDLE + k].0, &self.fliers.fliers[k]);
+        let body = self.rows.mobile[k] as usize;
+        let time = h - self.fliers.spent[IDLE + k];
+        let (set_out, motion) = place_and_motion(row);
+        let by_force = flier.is_forced(row, self.pulls.get(body), h);
+        let [vx, vz, spin] = flier.free;
+        let [x, z, turn] = flier.goes(row, time, by_force);
+        Stint {
+            body,
+            set_out,
+            arrived: Vec2::new(row[X] + x, row[Z] + z),
+            turn,
+            free: Motion { v: Vec2::new(vx, vz), omega: spin },
+            motion,
+            time,
+            by_force,
+        }
+    }
+
+    /// What a touch has pushed, unless it has not.
+    fn pressing(&self, touch: usize) -> Option<Pressing> {
+        let (block, lane) = self.blocks.place[touch];
+        let (block, lane) = (&self.blocks.blocks[block as usize], lane as usize);
+        let of = |lanes: Eight| lanes.0[lane];
+        let (push, grip) = (block.push.map(of), of(block.grip));
+        if push == [0.0; 2] && grip == 0.0 {
+            return None;
+        }
+        let rows = &self.rows.rows;
+        let arms = Arms::of(block, &gather(rows, &block.row_a), &gather(rows, &block.row_b));
+        let twists = |lever: [Eight; 2], along: Eight| {
+            let [first, second] = lever.map(of);
+            (first * push[0] + second * push[1], of(along) * grip)
+        };
+        let n = Vec2::new(of(block.nx), of(block.nz));
+        let pair = [self.touches[touch].a as usize, self.touches[touch].b as usize];
+        Some(Pressing {
+            touch,
+            pair,
+            along: n * (push[0] + push[1]),
+            across: Vec2::new(n.y, -n.x) * grip,
+            twists: [twists(arms.lever_a, arms.along_a), twists(arms.lever_b, arms.along_b)],
+        })
+    }
+}
+
+/// How far a row's body has come, and how it moves.
+fn place_and_motion(row: &[f64; LANES]) -> (Vec2, Motion) {
+    (Vec2::new(row[X], row[Z]), Motion { v: Vec2::new(row[VX], row[VZ]), omega: row[SPIN] })
+}
