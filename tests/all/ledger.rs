@@ -21,15 +21,19 @@ const BUDGET: u64 = 10_000;
 fn gap(world: &World) -> f64 {
     let ledger = world.ledger().expect("it is kept");
     let now = world.totals().to_array();
+    let initial = ledger.initial().to_array();
+    let booked = Cause::ALL.map(|cause| ledger.booked(cause).to_array());
+    let energy = initial[0] + booked.iter().map(|amounts| amounts[0].abs()).sum::<f64>();
     let mut sizes = [0.0; 4];
     for id in world.ids().filter(|id| world.kind(*id) == Kind::Mobile) {
-        let (momentum, spin) = (world.mass(id) * world.velocity(id).norm(), world.inertia(id) * world.spin(id));
+        // What is left when all has come to rest is rounding of what there was: that much counts as something.
+        let rounded = f64::EPSILON * (2.0 * energy * world.mass(id)).sqrt();
+        let momentum = world.mass(id) * world.velocity(id).norm() + rounded;
+        let spin = world.inertia(id) * world.spin(id);
         sizes[1] += momentum;
         sizes[2] += momentum;
         sizes[3] += momentum * world.position(id).norm() + spin.abs();
     }
-    let booked = Cause::ALL.map(|cause| ledger.booked(cause).to_array());
-    let initial = ledger.initial().to_array();
     let of = |k: usize| {
         let sum: f64 = booked.iter().map(|amounts| amounts[k]).sum();
         let turned_over: f64 = booked.iter().map(|amounts| amounts[k].abs()).sum();

@@ -226,9 +226,12 @@ impl Ledger {
         self.enter(self.contact.by_touch[touch], 0.0);
     }
 
-    /// A body in contact was put to where it has come to.
+    /// A body in contact was put to where it has come to, but for what rounding makes of that.
     pub(crate) fn settle_in(&mut self, bodies: &Bodies, body: usize, come: Vec2) {
-        self.moved_apart(bodies, body, bodies.frame[body].o + self.origin, come);
+        let now = self.state(bodies, body);
+        let booked = self.moved_apart(bodies, body, now.o, come);
+        let rounded = Sums::of_change(bodies.inertia[body], booked, now);
+        self.book_rest(Cause::Exchange, &rounded.energy_and_momenta().1);
     }
 
     /// A body that nothing was near has flown alone.
