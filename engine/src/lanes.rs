@@ -4,6 +4,9 @@
 //! is compiled for ([`crate::width`]). Every lane sees the same operations in the same order at any width, and nothing is fused
 //! or reordered, so the bits are the same everywhere.
 
+// Lanes by their index: loops of this form become vector instructions.
+#![allow(clippy::needless_range_loop)]
+
 use core::ops::{Add, Mul, Neg, Sub};
 
 /// How many lanes there are.

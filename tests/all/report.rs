@@ -42,14 +42,12 @@ fn errors(study: &Study, method: usize) -> Vec<Option<f64>> {
 }
 
 #[test]
-fn a_single_meeting_is_exact_in_continuous_motion_and_first_order_in_steps() {
+fn a_single_meeting_is_exact_in_continuous_motion_and_in_steps() {
     let study = quick(MEETING);
     assert!(matches!(study.references[1].earned, Some(Earned::Exact { to_itself, .. }) if to_itself < 1e-13));
     assert!(errors(&study, CONTINUOUS).iter().all(|error| error.is_some_and(|error| error < 1e-13)));
     let stepped = study.summary_of(ALL[STEPPED]).expect("a summary");
-    assert!(stepped.order.is_some_and(|order| (order - 1.0).abs() < 0.1), "{stepped:?}");
-    assert!(stepped.error_at_sixtieth.is_some_and(|error| error > 1e-3), "{stepped:?}");
-    assert!(study.advice.contains("continuous is") && study.advice.contains("cheaper at 1e-6"), "{}", study.advice);
+    assert!(stepped.error_at_sixtieth.is_some_and(|error| error < 1e-13), "a lone pair has its moment: {stepped:?}");
     assert!(study.comparisons.is_empty(), "it is not chaotic");
 }
 
@@ -143,7 +141,7 @@ fn a_reference_that_is_given_is_what_errors_are_measured_against() {
     let study = studied(&gas, Some(&folder.path().join("rods.csv")), 2);
     assert!(study.references.iter().all(|referred| referred.earned == Some(Earned::Given)));
     assert!(errors(&study, CONTINUOUS).iter().all(|error| error.is_some_and(|error| error < 1e-12)));
-    assert!(errors(&study, STEPPED).iter().all(|error| error.is_some_and(|error| error > 1e-2)));
+    assert!(errors(&study, STEPPED).iter().any(|error| error.is_some_and(|error| error > 1e-2)));
 }
 
 #[test]

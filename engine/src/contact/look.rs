@@ -35,6 +35,7 @@ impl Work for Look<'_> {
             let (a, b) = (gather(self.rows, &block.row_a), gather(self.rows, &block.row_b));
             let gap = gaps(block, &a, &b);
             let along_n = block.nx * (b[VX] - a[VX]) + block.nz * (b[VZ] - a[VZ]);
+            #[allow(clippy::needless_range_loop)] // of several arrays
             for k in 0..2 {
                 let u = along_n + block.lever_b[k] * b[SPIN] - block.lever_a[k] * a[SPIN];
                 let reach = -((gap[k] - band).max(Eight::ZERO) * rate);

@@ -166,6 +166,7 @@ impl World {
         let few = (1..=A_FEW).contains(&contacts.touches.len());
         let parts = if few { contacts.plan.substeps } else { 1 };
         contacts.untold.clear();
+        contacts.touches.iter_mut().for_each(|touch| touch.met = false);
         contacts.pull(self);
         for part in 1..=parts {
             if self.fault.is_some() {

@@ -192,6 +192,7 @@ impl Points {
             middle: Vec2::new(self.middle[0].0[k], self.middle[1].0[k]),
             push: [0.0; 2],
             grip: 0.0,
+            met: false,
             touching: false,
         }
     }

@@ -35,7 +35,7 @@ impl Contacts {
             let mut left = h;
             let mut struck = false;
             for _ in 0..MOST_STRIKES {
-                if left <= 0.0 || !self.may_strike(k, left, h) {
+                if left <= 0.0 || self.touches[k].met || !self.may_strike(k, left, h) {
                     break;
                 }
                 match self.strike_once(world, k, [true; 2], (left, h)) {
@@ -45,7 +45,10 @@ impl Contacts {
                 struck = true;
             }
             if struck {
+                let touch = &self.touches[k];
+                let met = touch.surface.restitution == 0.0 && self.pulled_together(touch) == 0.0;
                 self.look_again(world, k);
+                self.touches[k].met = met;
             }
         }
         for _ in 0..MOST_ROUNDS {
@@ -68,6 +71,9 @@ impl Contacts {
             for p in (0..2).filter(|p| touch.state(*p, a, b).0 > self.band) {
                 self.blocks.ask_nothing(k as usize, p);
             }
+        }
+        for &k in self.lonely.iter().filter(|k| self.touches[**k as usize].met) {
+            (0..2).for_each(|p| self.blocks.ask_nothing(k as usize, p));
         }
     }
 

@@ -52,6 +52,9 @@ pub(crate) struct Touch {
     /// Impulses over a sub-step at both points, and along t \[N·s\].
     pub(super) push: [f64; 2],
     pub(super) grip: f64,
+    /// Whether an impact without restitution, with nothing to press them together, has met them in this step: what comes of it is
+    /// left as it is until the next.
+    pub(super) met: bool,
     /// Whether they touched at the end of the last step.
     pub(super) touching: bool,
 }
@@ -119,6 +122,7 @@ impl Touch {
             middle: frame_a.o + (first.0 + second.0) * 0.5,
             push: [0.0; 2],
             grip: 0.0,
+            met: false,
             touching: false,
         };
         for (k, point) in manifold.points().iter().enumerate() {
@@ -140,7 +144,7 @@ impl Touch {
         if (self.of_first, self.face) != (last.of_first, last.face) {
             return;
         }
-        self.touching = last.touching;
+        (self.touching, self.met) = (last.touching, last.met);
         self.grip = last.grip;
         for k in 0..self.count as usize {
             let same = last.ends.iter().position(|end| *end == self.ends[k]);

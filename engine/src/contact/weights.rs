@@ -86,11 +86,13 @@ pub(super) fn guess(
 /// Pushes at the points that balance a load, the least in squares; none where the balance would draw.
 fn balance(points: &[(usize, usize, Vec2, f64)], load: Load) -> Vec<f64> {
     use nalgebra::{Matrix3, Vector3};
-    let rows: Vec<Vector3<f64>> = points.iter().map(|(.., n, lever)| Vector3::new(n.x, n.y, *lever)).collect();
+    // Moments count in forces at the longest lever: the balance is the same at any scale.
+    let longest = points.iter().map(|(.., lever)| lever.abs()).fold(f64::MIN_POSITIVE, f64::max);
+    let rows: Vec<Vector3<f64>> = points.iter().map(|(.., n, lever)| Vector3::new(n.x, n.y, lever / longest)).collect();
     let mut square: Matrix3<f64> = rows.iter().map(|row| row * row.transpose()).sum();
     let slack = SLACK * square.trace();
     square += Matrix3::from_diagonal_element(slack);
-    let wanted = -Vector3::new(load.force.x, load.force.y, load.moment);
+    let wanted = -Vector3::new(load.force.x, load.force.y, load.moment / longest);
     let Some(inverse) = square.try_inverse() else { return vec![0.0; points.len()] };
     let balanced = |wanted: Vector3<f64>| -> Vec<f64> {
         let multipliers = inverse * wanted;

@@ -60,7 +60,7 @@ const CAR: (f64, f64) = (4.2, 1.8);
 const OPEN: f64 = 18.0;
 
 fn closed() -> f64 {
-    libm::sqrt(1.3 * 50.0 * CAR.0 * CAR.1) / 2.0
+    libm::sqrt(2.2 * 50.0 * CAR.0 * CAR.1) / 2.0
 }
 
 /// How deep a car may be pressed in: 1 % of its length. Observed: not yet.
