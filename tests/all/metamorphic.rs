@@ -234,7 +234,9 @@ fn a_scene_twice_as_large_moves_twice_as_far() {
             let name = small.name(id);
             same(name, &large.position(id), &(small.position(id) * 2.0))?;
             same(name, &large.velocity(id), &(small.velocity(id) * 2.0))?;
-            same(name, &(large.angle(id), large.spin(id)), &(small.angle(id), small.spin(id)))?;
+            // The least numbers there are do not scale.
+            let turns = |world: &World| [world.angle(id), world.spin(id)].map(|x| if x.is_normal() { x } else { 0.0 });
+            same(name, &turns(&large), &turns(&small))?;
         }
         Ok(())
     });

@@ -38,7 +38,7 @@ impl Work for Look<'_> {
             #[allow(clippy::needless_range_loop)] // of several arrays
             for k in 0..2 {
                 let u = along_n + block.lever_b[k] * b[SPIN] - block.lever_a[k] * a[SPIN];
-                let reach = -((gap[k] - band).max(Eight::ZERO) * rate);
+                let reach = (band - gap[k]).pick(Eight::ZERO, -(gap[k] * rate));
                 block.asked[k] = reach + (reach - u).min(Eight::ZERO).max(-pulled);
             }
         }

@@ -3,7 +3,7 @@
 use super::kit::{G, State, assert_first_order, course, floor, grounded, on_a_corner, steps};
 
 /// How late or early an impact may be, in time steps, for itself and each before it. Observed: not yet.
-const STEPS_OFF: f64 = 1.0;
+const STEPS_OFF: f64 = 4.0;
 
 /// How far off the spin before an impact may be, as a share of it, per time step of 1/240 s and impact. Observed: not yet.
 const SPIN_OFF: f64 = 0.01;

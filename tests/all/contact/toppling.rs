@@ -38,7 +38,7 @@ fn falls_as_it_should(friction: f64, rows: &[(f64, f64, f64)], what: &str) {
         let tilts = runs.map(|(time_step, s)| (time_step, past(&s) - angle));
         assert_first_order(&tilts, TURNS_OFF * spin, 2e-3, &format!("{what}: tilt at {time:.3} s"));
         let spins = runs.map(|(time_step, s)| (time_step, -s.spin / spin - 1.0));
-        assert_first_order(&spins, 240.0 * SPIN_OFF, 2e-3, &format!("{what}: spin at {time:.3} s"));
+        assert_first_order(&spins, 240.0 * SPIN_OFF, 1e-2, &format!("{what}: spin at {time:.3} s"));
     }
 }
 
