@@ -91,10 +91,7 @@ pub(crate) fn advance_alone(
     work: &mut Work,
 ) -> Option<usize> {
     let mut lost = None;
-    let drag = match flight {
-        FlightPlan::Free => (0.0, 0.0),
-        FlightPlan::Forced { drag, .. } => drag,
-    };
+    let (_, drag) = flight.forces();
     let (linear, angular) = (Flight::new(drag.0, dt), Flight::new(drag.1, dt));
     for &body in &movers.mobile {
         if touched(body) {
@@ -102,7 +99,7 @@ pub(crate) fn advance_alone(
         }
         let i = body as usize;
         let Motion { v, omega } = bodies.motion[i];
-        let Pull { a, alpha, .. } = if pulls.is_empty() { Pull::NONE } else { pulls[i] };
+        let Pull { a, alpha, .. } = Pull::on(pulls, i);
         bodies.shift(i, v * linear.reach + a * linear.fall);
         if omega != 0.0 || alpha != 0.0 {
             bodies.turn(i, omega * angular.reach + alpha * angular.fall);

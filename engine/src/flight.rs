@@ -21,6 +21,13 @@ impl Pull {
     /// Nothing: uniform flight.
     pub const NONE: Pull = Pull { a: Vec2::new(0.0, 0.0), alpha: 0.0, drag: (0.0, 0.0) };
 
+    /// What acts on a body; `pulls` may be empty when nothing acts on any.
+    #[inline]
+    #[must_use]
+    pub fn on(pulls: &[Pull], body: usize) -> Pull {
+        if pulls.is_empty() { Pull::NONE } else { pulls[body] }
+    }
+
     /// Whether flight is uniform.
     #[inline]
     #[must_use]
@@ -56,8 +63,7 @@ impl Path {
     #[inline]
     #[must_use]
     pub fn of(bodies: &Bodies, pulls: &[Pull], body: usize) -> Path {
-        let pull = if pulls.is_empty() { Pull::NONE } else { pulls[body] };
-        Path { frame: bodies.frame[body], motion: bodies.motion[body], pull }
+        Path { frame: bodies.frame[body], motion: bodies.motion[body], pull: Pull::on(pulls, body) }
     }
 
     /// A bound on how far points of two bodies come towards each other within a time \[m\]: sure and quick, not sharp. The

@@ -158,14 +158,20 @@ impl Plan {
     /// The acceleration of every mobile body \[m/s²\].
     #[must_use]
     pub fn gravity(&self) -> Vec2 {
-        match self.flight {
-            FlightPlan::Free => Vec2::zeros(),
-            FlightPlan::Forced { gravity, .. } => gravity,
-        }
+        self.flight.forces().0
     }
 }
 
 impl FlightPlan {
+    /// The acceleration of every mobile body \[m/s²\], and the decay rates of velocity and of spin \[1/s\].
+    #[must_use]
+    pub fn forces(&self) -> (Vec2, (f64, f64)) {
+        match *self {
+            FlightPlan::Free => (Vec2::zeros(), (0.0, 0.0)),
+            FlightPlan::Forced { gravity, drag, .. } => (gravity, drag),
+        }
+    }
+
     fn resolve(settings: &Settings, scene: &Scene) -> Self {
         let forced = settings.gravity != (0.0, 0.0) || settings.drag != (0.0, 0.0);
         if !forced || !scene.bodies.iter().any(|body| body.kind == Kind::Mobile) {

@@ -35,8 +35,6 @@ pub(super) struct Block {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Blocks {
     pub(super) blocks: Vec<Block>,
-    /// Where each colour's blocks begin; one more closes the last.
-    pub(super) begins: Vec<u32>,
     /// The block and lane of each touch.
     pub(super) place: Vec<(u32, u8)>,
     colour: Vec<u8>,
@@ -52,15 +50,12 @@ impl Blocks {
     /// Lays the touches out, with the rows of their bodies.
     pub(super) fn fill(&mut self, touches: &[Touch], of_touch: &[(u32, u32)], rows: &Rows, keep: f64, band: f64) {
         self.colour(of_touch, rows);
-        self.begins.clear();
         let mut begin = 0;
         self.next.clear();
         for (colour, count) in self.counts.iter().enumerate() {
-            self.begins.push(begin);
             self.next.push(begin * LANES as u32);
             begin += if colour == SHARED { *count } else { count.div_ceil(LANES as u32) };
         }
-        self.begins.push(begin);
         self.blocks.clear();
         self.blocks.resize(begin as usize, Block::idle());
         self.place.clear();
@@ -87,11 +82,17 @@ impl Blocks {
         }
     }
 
+    /// The pushes and friction of a touch.
+    pub(super) fn pushes(&self, k: usize) -> ([f64; 2], f64) {
+        let (block, lane) = self.place[k];
+        let (block, lane) = (&self.blocks[block as usize], lane as usize);
+        (block.push.map(|push| push.0[lane]), block.grip.0[lane])
+    }
+
     /// Whether a touch presses: it has done so in the sub-step before.
     pub(super) fn presses(&self, k: usize) -> bool {
-        let (block, lane) = self.place[k];
-        let [one, two] = &self.blocks[block as usize].push;
-        one.0[lane as usize] + two.0[lane as usize] > 0.0
+        let ([one, two], _) = self.pushes(k);
+        one + two > 0.0
     }
 
     /// A point of a touch asks for nothing in this sub-step.

@@ -1,13 +1,13 @@
 //! What the contact solver tells the ledger, where one is kept.
 
 use super::Contacts;
-use super::rows::{IDLE, SPIN, VX, VZ, X, Z};
+use super::rows::{IDLE, X, Z};
 use super::sweep::{Arms, gather};
 use crate::area::Vec2;
 use crate::bodies::Motion;
 use crate::detect::manifold::Manifold;
 use crate::exchange::impulse::Act;
-use crate::lanes::{Eight, LANES};
+use crate::lanes::Eight;
 use crate::ledger::{Forces, Pressing, Stint};
 use crate::plan::Plan;
 use crate::world::World;
@@ -24,8 +24,8 @@ impl Contacts {
     pub(super) fn book_ahead(&self, world: &mut World, row: u32, time: f64) {
         let (Some(ledger), Some(at)) = (&mut world.ledger, self.rows.mobile_of(row)) else { return };
         let body = self.rows.mobile[at] as usize;
-        let (come, motion) = place_and_motion(&self.rows.rows[row as usize].0);
-        ledger.fly_ahead(&world.bodies, body, (time, self.forces(&world.plan, body)), (come, motion));
+        let row = &self.rows.rows[row as usize];
+        ledger.fly_ahead(&world.bodies, body, (time, self.forces(&world.plan, body)), (row.place(), row.motion()));
     }
 
     /// An impact of the bodies of two rows, which stand where they meet for the moment.
@@ -66,7 +66,7 @@ impl Contacts {
             ledger.flown_alone(bodies, *body as usize, dt, &self.forces(plan, *body as usize));
         }
         for (k, body) in self.rows.mobile.iter().enumerate().filter(|_| solved) {
-            ledger.settle_in(bodies, *body as usize, place_and_motion(&self.rows.rows[IDLE + k].0).0);
+            ledger.settle_in(bodies, *body as usize, self.rows.rows[IDLE + k].place());
         }
     }
 
@@ -79,20 +79,20 @@ impl Contacts {
     }
 
     fn stint(&self, k: usize, h: f64) -> Stint {
-        let (row, flier) = (&self.rows.rows[IDLE + k].0, &self.fliers.fliers[k]);
+        let (at, flier) = (&self.rows.rows[IDLE + k], &self.fliers.fliers[k]);
+        let row = &at.0;
         let body = self.rows.mobile[k] as usize;
         let time = h - self.fliers.spent[IDLE + k];
-        let (set_out, motion) = place_and_motion(row);
         let by_force = flier.is_forced(row, self.pulls.get(body), h);
         let [vx, vz, spin] = flier.free;
         let [x, z, turn] = flier.goes(row, time, by_force);
         Stint {
             body,
-            set_out,
+            set_out: at.place(),
             arrived: Vec2::new(row[X] + x, row[Z] + z),
             turn,
             free: Motion { v: Vec2::new(vx, vz), omega: spin },
-            motion,
+            motion: at.motion(),
             time,
             by_force,
         }
@@ -123,9 +123,4 @@ impl Contacts {
             twists: [twists(arms.lever_a, arms.along_a), twists(arms.lever_b, arms.along_b)],
         })
     }
-}
-
-/// How far a row's body has come, and how it moves.
-fn place_and_motion(row: &[f64; LANES]) -> (Vec2, Motion) {
-    (Vec2::new(row[X], row[Z]), Motion { v: Vec2::new(row[VX], row[VZ]), omega: row[SPIN] })
 }

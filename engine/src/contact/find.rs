@@ -6,7 +6,6 @@ use super::points::Points;
 use super::search::Search;
 use super::touch::Touch;
 use crate::advance::frame_before;
-use crate::area::Vec2;
 use crate::bodies::Bodies;
 use crate::broad_phase::met::Owner;
 use crate::flight::Pull;
@@ -37,10 +36,7 @@ impl Acting<'_> {
 
 /// What acts on every mobile body that is not pushed.
 fn acting(flight: FlightPlan) -> Pull {
-    let (a, drag) = match flight {
-        FlightPlan::Free => (Vec2::zeros(), (0.0, 0.0)),
-        FlightPlan::Forced { gravity, drag, .. } => (gravity, drag),
-    };
+    let (a, drag) = flight.forces();
     Pull { a, alpha: 0.0, drag }
 }
 
@@ -55,9 +51,10 @@ impl Contacts {
         let of = |body: usize| if world.bodies.is_mobile(body) { mobile } else { fixed };
         self.pulls.extend((0..world.bodies.len()).map(of));
         for push in &world.pushes {
-            let (body, inertia) = (push.body as usize, world.bodies.inertia[push.body as usize]);
-            self.pulls[body].a += push.force / inertia.mass;
-            self.pulls[body].alpha += push.torque / inertia.moment;
+            let body = push.body as usize;
+            let pushed = push.acceleration(world.bodies.inertia[body]);
+            self.pulls[body].a += pushed.v;
+            self.pulls[body].alpha += pushed.omega;
         }
     }
 

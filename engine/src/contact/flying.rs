@@ -3,8 +3,7 @@
 use super::rows::{IDLE, INVERSE_MASS, INVERSE_MOMENT, Rows, SPIN, TURN, VX, VZ, X, Z};
 use super::touch::Touch;
 use crate::area::Vec2;
-use crate::bodies::Motion;
-use crate::flight::{Path, Pull};
+use crate::flight::{Path, Pull, turned};
 use crate::forces::Flight;
 use crate::frame::Frame;
 use crate::lanes::LANES;
@@ -62,15 +61,18 @@ pub(super) struct Fliers {
 
 impl Fliers {
     /// A step begins: contacts push as they did at the end of the last.
-    pub(super) fn begin(&mut self, rows: &Rows, pulls: &[Pull], touches: &[Touch], of_touch: &[(u32, u32)], h: f64) {
+    pub(super) fn begin(&mut self, rows: &Rows, touches: &[Touch], of_touch: &[(u32, u32)]) {
         self.fliers.clear();
         self.fliers.resize(rows.mobile.len(), Flier::default());
         self.spent.clear();
         self.spent.resize(rows.rows.len(), 0.0);
         self.spenders.clear();
-        let drag = pulls.iter().map(|pull| pull.drag).find(|drag| *drag != (0.0, 0.0)).unwrap_or((0.0, 0.0));
-        self.coefficients = (!pulls.is_empty()).then(|| (Flight::new(drag.0, h), Flight::new(drag.1, h)));
         self.carry(rows, touches, of_touch);
+    }
+
+    /// Over sub-steps of that length something acts on bodies, with these decay rates; nothing does without any.
+    pub(super) fn pace(&mut self, drag: Option<(f64, f64)>, h: f64) {
+        self.coefficients = drag.map(|drag| (Flight::new(drag.0, h), Flight::new(drag.1, h)));
     }
 
     /// Contacts push as their touches say.
@@ -196,9 +198,8 @@ impl Fliers {
 
     /// How a row's body flies from where it stands now in the sub-step.
     pub(super) fn path(rows: &Rows, row: u32, frame: &Frame, pull: Pull) -> Path {
-        let r = &rows.rows[row as usize].0;
-        let frame = crate::flight::turned(frame, frame.o + Vec2::new(r[X], r[Z]), r[TURN]);
-        Path { frame, motion: Motion { v: Vec2::new(r[VX], r[VZ]), omega: r[SPIN] }, pull }
+        let row = &rows.rows[row as usize];
+        Path { frame: turned(frame, frame.o + row.place(), row.0[TURN]), motion: row.motion(), pull }
     }
 
     /// A row's body flies on for some time of the sub-step, ahead of the others.
@@ -207,11 +208,11 @@ impl Fliers {
             return;
         }
         let change = path.change(time);
-        let r = &mut rows.rows[row as usize].0;
-        r[X] += change.shift.x;
-        r[Z] += change.shift.y;
-        r[TURN] += change.turn;
-        (r[VX], r[VZ], r[SPIN]) = (change.motion.v.x, change.motion.v.y, change.motion.omega);
+        let r = &mut rows.rows[row as usize];
+        r.0[X] += change.shift.x;
+        r.0[Z] += change.shift.y;
+        r.0[TURN] += change.turn;
+        r.set_motion(change.motion);
         if self.spent[row as usize] == 0.0 {
             self.spenders.push(row);
         }

@@ -9,7 +9,7 @@
 
 use super::blocks::Block;
 use super::rows::{Row, SPIN, VX, VZ};
-use super::sweep::{gaps, gather};
+use super::sweep::{Arms, gaps, gather, push};
 use crate::lanes::Eight;
 use crate::width::Work;
 
@@ -57,7 +57,8 @@ impl Work for Warm<'_> {
     #[inline(always)]
     fn run(self) {
         for block in self.blocks {
-            super::sweep::push_again(self.rows, block);
+            let [first, second] = block.push;
+            push(block, |a, b| Arms::of(block, a, b), self.rows, [first, second, block.grip]);
         }
     }
 }

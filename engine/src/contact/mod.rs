@@ -60,7 +60,8 @@ const MOST_SWEEPS: usize = 16;
 /// Sweeps where the pushes of the sub-step before were no help and all begins at nothing.
 const FRESH_SWEEPS: usize = 8;
 
-/// A scene in which no body is faster than this many times what gravity does in a sub-step is quiet: settled, not swept.
+/// A scene in which no body is faster than this many times what gravity does in a sub-step is quiet: its contacts push on from
+/// where its bodies were, for they hardly move.
 const QUIET: f64 = 16.0;
 
 /// A scene in which no body is faster than this many times that stands still, or is about to: worth being settled to the end.
@@ -190,7 +191,9 @@ impl World {
         contacts.open_books(self, time - dt);
         if !contacts.touches.is_empty() {
             let h = dt / f64::from(substeps);
-            contacts.fliers.begin(&contacts.rows, &contacts.pulls, &contacts.touches, &contacts.of_touch, h);
+            let drag = (!contacts.pulls.is_empty()).then(|| self.plan.flight.forces().1);
+            contacts.fliers.pace(drag, h);
+            contacts.fliers.begin(&contacts.rows, &contacts.touches, &contacts.of_touch);
             for _ in 0..substeps {
                 contacts.substep(self, h);
             }
@@ -269,9 +272,8 @@ impl Contacts {
             self.settle_touches(world, h, pulled, fastest);
         } else {
             self.sweep_touches(world, (SWEPT / self.touches.len()).clamp(LEAST_SWEEPS, MOST_SWEEPS));
-            let most = (BUDGET / self.touches.len() as u32).min(PATIENCE);
-            let Settled { rounds, .. } = self.settle_for(Effort { pulled, most });
-            world.work.touches_solved += u64::from(rounds) * self.touches.len() as u64;
+            let most = self.few();
+            self.settle_for(world, Effort { pulled, most });
         }
         // A jam has no solution: pushes grow without end, and do harm once it gives way.
         if self.fliers.gained(&self.rows, self.reach) {
@@ -285,9 +287,8 @@ impl Contacts {
 
     /// Improves all touches of a scene that stands still together, for as long as it is worth it.
     fn settle_touches(&mut self, world: &mut World, h: f64, pulled: f64, fastest: f64) {
-        let few = (BUDGET / self.touches.len() as u32).min(PATIENCE);
-        let most = if fastest == 0.0 { PATIENCE } else { self.patience.max(few) };
-        let Settled { mut rounds, left, enough } = self.settle_for(Effort { pulled, most: FIRST.min(most) });
+        let most = if fastest == 0.0 { PATIENCE } else { self.patience.max(self.few()) };
+        let Settled { left, enough, .. } = self.settle_for(world, Effort { pulled, most: FIRST.min(most) });
         if !enough {
             if left > UNBALANCED * pulled {
                 let pull = world.plan.gravity() * h;
@@ -296,17 +297,22 @@ impl Contacts {
                 self.fliers.renew(&mut self.rows);
                 self.blocks.renew(&self.touches);
             }
-            let more = self.settle_for(Effort { pulled, most });
+            let more = self.settle_for(world, Effort { pulled, most });
             self.patience =
                 if more.enough { (2 * self.patience).min(PATIENCE) } else { (self.patience / 2).max(FIRST) };
-            rounds += more.rounds;
         }
-        world.work.touches_solved += u64::from(rounds) * self.touches.len() as u64;
     }
 
-    fn settle_for(&mut self, effort: Effort) -> Settled {
+    /// How many rounds are always worth it.
+    fn few(&self) -> u32 {
+        (BUDGET / self.touches.len() as u32).min(PATIENCE)
+    }
+
+    fn settle_for(&mut self, world: &mut World, effort: Effort) -> Settled {
         let (rows, blocks) = (&mut self.rows, &mut self.blocks.blocks);
-        self.rest.settle(rows, blocks, self.width, effort)
+        let settled = self.rest.settle(rows, blocks, self.width, effort);
+        world.work.touches_solved += u64::from(settled.rounds) * self.touches.len() as u64;
+        settled
     }
 
     fn sweep_touches(&mut self, world: &mut World, sweeps: usize) {
@@ -322,12 +328,12 @@ impl Contacts {
         self.width.run(Look { rows, blocks, h, band: self.band, pulled });
     }
 
-    fn sweep(&mut self, back: bool) -> f64 {
+    fn sweep(&mut self, back: bool) {
         let (rows, blocks, band) = (&mut self.rows.rows[..], &mut self.blocks.blocks[..], self.band);
         if self.plan.friction {
-            self.width.run(Sweep::<true> { rows, blocks, band, back })
+            self.width.run(Sweep::<true> { rows, blocks, band, back });
         } else {
-            self.width.run(Sweep::<false> { rows, blocks, band, back })
+            self.width.run(Sweep::<false> { rows, blocks, band, back });
         }
     }
 }

@@ -10,7 +10,7 @@
 
 use super::blocks::Block;
 use super::rows::{INVERSE_MASS, INVERSE_MOMENT, Row, Rows, SPIN, VX, VZ};
-use super::sweep::{Arms, Lanes, Response, gather, scatter};
+use super::sweep::{Arms, Lanes, Response, gather, push};
 use crate::lanes::{Eight, LANES};
 use crate::width::{Width, Work};
 
@@ -156,8 +156,7 @@ impl Work for Round<'_> {
         let (mut most, mut back) = (Eight::ZERO, Eight::ZERO);
         for (block, guess) in self.blocks.iter().zip(self.guesses) {
             let (a, b) = (gather(self.from, &block.row_a), gather(self.from, &block.row_b));
-            let arms =
-                Arms { lever_a: block.lever_a, lever_b: block.lever_b, along_a: block.along_a, along_b: block.along_b };
+            let arms = Arms::at_first(block);
             let shared = Response::with(&arms, (a[SHARED_MASS], a[SHARED_MOMENT]), (b[SHARED_MASS], b[SHARED_MOMENT]));
             let from: [Eight; 3] = core::array::from_fn(|k| guess.x[k] + self.share * (guess.x[k] - guess.last[k]));
             let (x, change) = improve(block, &shared, &a, &b, &from);
@@ -167,7 +166,7 @@ impl Work for Round<'_> {
                 most = most.max(change[k].abs());
             }
             *guess = Guess { x, last: guess.x };
-            give(block, &a, &b, self.to, step);
+            push(block, |_, _| Arms::at_first(block), self.to, step);
         }
         (most.greatest(), back.sum())
     }
@@ -189,22 +188,4 @@ fn improve(block: &Block, shared: &Response, a: &Lanes, b: &Lanes, from: &[Eight
     let grip = (from[2] - slip * k.inverse()).min(most).max(-most);
     let change = [shared.k[0] * (x1 - from[0]), shared.k[1] * (x2 - from[1]), k * (grip - from[2])];
     ([x1, x2, grip], change)
-}
-
-/// Adds impulses to the motions of a block's bodies.
-#[inline(always)]
-fn give(block: &Block, a: &Lanes, b: &Lanes, to: &mut [Row], [p1, p2, pt]: [Eight; 3]) {
-    let sum = p1 + p2;
-    let (px, pz) = (block.nx * sum + block.nz * pt, block.nz * sum - block.nx * pt);
-    let twist_a = block.lever_a[0] * p1 + block.lever_a[1] * p2 + block.along_a * pt;
-    let twist_b = block.lever_b[0] * p1 + block.lever_b[1] * p2 + block.along_b * pt;
-    let (mut on_a, mut on_b) = (gather(to, &block.row_a), gather(to, &block.row_b));
-    on_a[VX] = on_a[VX] - a[INVERSE_MASS] * px;
-    on_a[VZ] = on_a[VZ] - a[INVERSE_MASS] * pz;
-    on_a[SPIN] = on_a[SPIN] - a[INVERSE_MOMENT] * twist_a;
-    on_b[VX] = on_b[VX] + b[INVERSE_MASS] * px;
-    on_b[VZ] = on_b[VZ] + b[INVERSE_MASS] * pz;
-    on_b[SPIN] = on_b[SPIN] + b[INVERSE_MOMENT] * twist_b;
-    scatter(to, &block.row_a, on_a);
-    scatter(to, &block.row_b, on_b);
 }

@@ -1,13 +1,29 @@
 //! The bodies in contact as the solver sees them: a row of eight numbers each.
 
 use super::touch::Touch;
-use crate::bodies::Bodies;
+use crate::area::Vec2;
+use crate::bodies::{Bodies, Motion};
 use crate::lanes::LANES;
 
 /// One body in contact: how it moves, how far it has come since the step began, and how easily it is moved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(64))]
 pub(super) struct Row(pub(super) [f64; LANES]);
+
+impl Row {
+    /// How far the body has come since the step began \[m\].
+    pub(super) fn place(&self) -> Vec2 {
+        Vec2::new(self.0[X], self.0[Z])
+    }
+
+    pub(super) fn motion(&self) -> Motion {
+        Motion { v: Vec2::new(self.0[VX], self.0[VZ]), omega: self.0[SPIN] }
+    }
+
+    pub(super) fn set_motion(&mut self, Motion { v, omega }: Motion) {
+        (self.0[VX], self.0[VZ], self.0[SPIN]) = (v.x, v.y, omega);
+    }
+}
 
 /// The places in a row.
 pub(super) const VX: usize = 0;

@@ -1,10 +1,9 @@
 //! The step ends: bodies take their places, touches remember, hits are told.
 
 use super::Contacts;
-use super::rows::{IDLE, SPIN, TURN, VX, VZ, X, Z};
+use super::rows::{IDLE, TURN};
 use crate::advance::is_finite;
 use crate::area::Vec2;
-use crate::bodies::Bodies;
 use crate::exchange::PairKind;
 use crate::step::Hit;
 use crate::world::{BodyId, World};
@@ -16,46 +15,41 @@ impl Contacts {
             return;
         }
         for (k, &body) in self.rows.mobile.iter().enumerate() {
-            let body = body as usize;
-            let row = &self.rows.rows[IDLE + k].0;
-            let bodies: &mut Bodies = &mut world.bodies;
-            bodies.shift(body, Vec2::new(row[X], row[Z]));
-            if row[TURN] != 0.0 {
-                bodies.turn(body, row[TURN]);
+            let (body, row) = (body as usize, &self.rows.rows[IDLE + k]);
+            let bodies = &mut world.bodies;
+            bodies.shift(body, row.place());
+            if row.0[TURN] != 0.0 {
+                bodies.turn(body, row.0[TURN]);
             }
-            bodies.motion[body].v = Vec2::new(row[VX], row[VZ]);
-            bodies.motion[body].omega = row[SPIN];
+            bodies.motion[body] = row.motion();
             if !is_finite(bodies, body) {
                 world.report_fault(body);
             }
         }
-        for (k, touch) in self.touches.iter_mut().enumerate() {
-            let (block, lane) = self.blocks.place[k];
-            let block = &self.blocks.blocks[block as usize];
-            for p in 0..2 {
-                touch.push[p] = block.push[p].0[lane as usize];
-            }
-            touch.grip = block.grip.0[lane as usize];
+        for k in 0..self.touches.len() {
+            let touch = &mut self.touches[k];
+            (touch.push, touch.grip) = self.blocks.pushes(k);
             let pressed = touch.push[0] + touch.push[1] > 0.0;
             let was_open = touch.gap[0].min(touch.gap[1]) > self.band;
-            if pressed && !touch.touching && was_open && self.lonely.binary_search(&(k as u32)).is_err() {
-                let (a, b) = (touch.a.min(touch.b), touch.a.max(touch.b));
-                let kind = PairKind::of(world.bodies.role[a as usize], world.bodies.role[b as usize]);
-                world.work.count_exchange(kind);
+            let is_new = pressed && !touch.touching && was_open && self.lonely.binary_search(&(k as u32)).is_err();
+            touch.touching = pressed;
+            if is_new {
+                let (point, normal) = (touch.middle, touch.n);
                 if let Some(ledger) = &mut world.ledger {
                     ledger.enter_touch(k);
                 }
-                self.untold.push(Hit {
-                    iteration: world.iteration,
-                    a: BodyId(a),
-                    b: BodyId(b),
-                    point: touch.middle + world.plan.origin,
-                    normal: touch.n,
-                    depth: 0.0,
-                    kind,
-                });
+                self.tell(world, k, (point, normal), 0.0);
             }
-            touch.touching = pressed;
         }
+    }
+
+    /// Tells of a hit of a touch, at a point from the plan's origin.
+    pub(super) fn tell(&mut self, world: &mut World, k: usize, (point, normal): (Vec2, Vec2), depth: f64) {
+        let touch = &self.touches[k];
+        let (a, b) = (touch.a.min(touch.b), touch.a.max(touch.b));
+        let kind = PairKind::of(world.bodies.role[a as usize], world.bodies.role[b as usize]);
+        world.work.count_exchange(kind);
+        let (iteration, point) = (world.iteration, point + world.plan.origin);
+        self.untold.push(Hit { iteration, a: BodyId(a), b: BodyId(b), point, normal, depth, kind });
     }
 }

@@ -10,11 +10,9 @@ use super::meeting::{Two, meeting, meeting_now};
 use super::rows::{SPIN, VX, VZ};
 use super::touch::Touch;
 use crate::detect::manifold::Manifold;
-use crate::exchange::PairKind;
 use crate::flight::{Path, Pull};
 use crate::frame::perp;
-use crate::step::Hit;
-use crate::world::{BodyId, World};
+use crate::world::World;
 
 /// Impacts of a pair in a sub-step at most, and rounds of impacts in a crowd; what comes more often is held.
 const MOST_STRIKES: u32 = 8;
@@ -123,13 +121,9 @@ impl Contacts {
     fn look_again(&mut self, world: &World, k: usize) {
         let touch = self.touches[k];
         let (row_a, row_b) = self.of_touch[k];
-        let stands = [touch.a, touch.b].map(|body| world.bodies.frame[body as usize]);
-        let frames = [
-            Fliers::path(&self.rows, row_a, &stands[0], Pull::NONE).frame,
-            Fliers::path(&self.rows, row_b, &stands[1], Pull::NONE).frame,
-        ];
+        let [path_a, path_b] = self.paths(world, k, [false; 2]);
         let two = Two::of(&world.bodies, &touch);
-        let [one, other] = two.placed([&frames[0], &frames[1]]);
+        let [one, other] = two.placed([&path_a.frame, &path_b.frame]);
         let pair = if touch.of_first { (one, other) } else { (other, one) };
         let margin = 2.0 * (one.rect.half().min() + other.rect.half().min());
         let Some(mut now) = Touch::find(&world.bodies, pair, margin, Some(&touch), |body| world.bodies.frame[body])
@@ -147,7 +141,7 @@ impl Contacts {
 
     /// How strongly what acts on two bodies draws them together \[m/s²\].
     fn pulled_together(&self, touch: &Touch) -> f64 {
-        let pull = |body: u32| if self.pulls.is_empty() { Pull::NONE } else { self.pulls[body as usize] };
+        let pull = |body: u32| Pull::on(&self.pulls, body as usize);
         (pull(touch.a).a - pull(touch.b).a).dot(&touch.n).max(0.0)
     }
 
@@ -182,10 +176,7 @@ impl Contacts {
     fn paths(&self, world: &World, k: usize, flies: [bool; 2]) -> [Path; 2] {
         let touch = &self.touches[k];
         let (row_a, row_b) = self.of_touch[k];
-        let pull = |body: u32, flies: bool| match flies && !self.pulls.is_empty() {
-            true => self.pulls[body as usize],
-            false => Pull::NONE,
-        };
+        let pull = |body: u32, flies: bool| if flies { Pull::on(&self.pulls, body as usize) } else { Pull::NONE };
         let of = |row, body: u32, flies| {
             Fliers::path(&self.rows, row, &world.bodies.frame[body as usize], pull(body, flies))
         };
@@ -227,24 +218,12 @@ impl Contacts {
         }
         let act = self.act(world, self.of_touch[k], manifold);
         for ((row, body), (frame, surface)) in [row_a, row_b].into_iter().zip(pair).zip(stood) {
-            let motion = world.bodies.motion[body];
-            let row = &mut self.rows.rows[row as usize].0;
-            (row[VX], row[VZ], row[SPIN]) = (motion.v.x, motion.v.y, motion.omega);
+            self.rows.rows[row as usize].set_motion(world.bodies.motion[body]);
             world.bodies.frame[body] = frame;
             world.bodies.surface[body] = surface;
         }
         let Some(act) = act else { return false };
-        let kind = PairKind::of(world.bodies.role[pair[0]], world.bodies.role[pair[1]]);
-        world.work.count_exchange(kind);
-        self.untold.push(Hit {
-            iteration: world.iteration,
-            a: BodyId(touch.a.min(touch.b)),
-            b: BodyId(touch.a.max(touch.b)),
-            point: act.middle + world.plan.origin,
-            normal: act.normal,
-            depth: manifold.depth.max(0.0),
-            kind,
-        });
+        self.tell(world, k, (act.middle, act.normal), manifold.depth.max(0.0));
         true
     }
 }

@@ -24,13 +24,11 @@ pub(super) struct Sweep<'a, const FRICTION: bool> {
 }
 
 impl<const FRICTION: bool> Work for Sweep<'_, FRICTION> {
-    /// The greatest change of a velocity at a point \[m/s\].
-    type Out = f64;
+    type Out = ();
 
     #[inline(always)]
-    fn run(self) -> f64 {
+    fn run(self) {
         let count = self.blocks.len();
-        let mut most = Eight::ZERO;
         for at in 0..count {
             let block = &mut self.blocks[if self.back { count - 1 - at } else { at }];
             let (mut a, mut b) = (gather(self.rows, &block.row_a), gather(self.rows, &block.row_b));
@@ -39,14 +37,13 @@ impl<const FRICTION: bool> Work for Sweep<'_, FRICTION> {
             let gap = gaps(block, &a, &b);
             let band = Eight::all(self.band);
             part_overlap(block, &arms, (&mut a, &mut b), &response, gap, band);
-            most = most.max(press(block, &arms, (&mut a, &mut b), &response));
+            press(block, &arms, (&mut a, &mut b), &response);
             if FRICTION {
-                most = most.max(rub(block, &arms, &mut a, &mut b));
+                rub(block, &arms, (&mut a, &mut b));
             }
             scatter(self.rows, &block.row_a, a);
             scatter(self.rows, &block.row_b, b);
         }
-        most.greatest()
     }
 }
 
@@ -86,6 +83,13 @@ pub(super) struct Arms {
 }
 
 impl Arms {
+    /// The levers as the step began.
+    #[inline(always)]
+    pub(super) fn at_first(block: &Block) -> Arms {
+        let &Block { lever_a, lever_b, along_a, along_b, .. } = block;
+        Arms { lever_a, lever_b, along_a, along_b }
+    }
+
     #[inline(always)]
     pub(super) fn of(block: &Block, a: &Lanes, b: &Lanes) -> Arms {
         let (dx, dz) = (b[X] - a[X], b[Z] - a[Z]);
@@ -172,18 +176,14 @@ fn part_overlap(
     let too_deep = [gap[0] - block.least[0] + band, gap[1] - block.least[1] + band];
     let [x1, x2] = response.complement(too_deep);
     let sum = x1 + x2;
-    let (px, pz) = (block.nx * sum, block.nz * sum);
-    a[X] = a[X] - a[INVERSE_MASS] * px;
-    a[Z] = a[Z] - a[INVERSE_MASS] * pz;
-    a[TURN] = a[TURN] - a[INVERSE_MOMENT] * (arms.lever_a[0] * x1 + arms.lever_a[1] * x2);
-    b[X] = b[X] + b[INVERSE_MASS] * px;
-    b[Z] = b[Z] + b[INVERSE_MASS] * pz;
-    b[TURN] = b[TURN] + b[INVERSE_MOMENT] * (arms.lever_b[0] * x1 + arms.lever_b[1] * x2);
+    let turn_a = a[INVERSE_MOMENT] * (arms.lever_a[0] * x1 + arms.lever_a[1] * x2);
+    let turn_b = b[INVERSE_MOMENT] * (arms.lever_b[0] * x1 + arms.lever_b[1] * x2);
+    give((a, b), PLACE, [block.nx * sum, block.nz * sum], [turn_a, turn_b]);
 }
 
 /// Friction: against the slip, as far as the pushes hold it.
 #[inline(always)]
-fn rub(block: &mut Block, arms: &Arms, a: &mut Lanes, b: &mut Lanes) -> Eight {
+fn rub(block: &mut Block, arms: &Arms, (a, b): (&mut Lanes, &mut Lanes)) {
     let mass = a[INVERSE_MASS] + b[INVERSE_MASS];
     let (turn_a, turn_b) = (a[INVERSE_MOMENT] * arms.along_a, b[INVERSE_MOMENT] * arms.along_b);
     let k = mass + turn_a * arms.along_a + turn_b * arms.along_b;
@@ -193,19 +193,12 @@ fn rub(block: &mut Block, arms: &Arms, a: &mut Lanes, b: &mut Lanes) -> Eight {
     let grip = (block.grip - slip * k.inverse()).min(most).max(-most);
     let more = grip - block.grip;
     block.grip = grip;
-    let (px, pz) = (block.nz * more, -(block.nx * more));
-    a[VX] = a[VX] - a[INVERSE_MASS] * px;
-    a[VZ] = a[VZ] - a[INVERSE_MASS] * pz;
-    a[SPIN] = a[SPIN] - turn_a * more;
-    b[VX] = b[VX] + b[INVERSE_MASS] * px;
-    b[VZ] = b[VZ] + b[INVERSE_MASS] * pz;
-    b[SPIN] = b[SPIN] + turn_b * more;
-    (k * more).abs()
+    give((a, b), MOTION, [block.nz * more, -(block.nx * more)], [turn_a * more, turn_b * more]);
 }
 
 /// The pushes at both points.
 #[inline(always)]
-fn press(block: &mut Block, arms: &Arms, (a, b): (&mut Lanes, &mut Lanes), response: &Response) -> Eight {
+fn press(block: &mut Block, arms: &Arms, (a, b): (&mut Lanes, &mut Lanes), response: &Response) {
     let along_n = block.nx * (b[VX] - a[VX]) + block.nz * (b[VZ] - a[VZ]);
     let u = |k: usize| along_n + arms.lever_b[k] * b[SPIN] - arms.lever_a[k] * a[SPIN];
     let [p1, p2] = block.push;
@@ -216,30 +209,36 @@ fn press(block: &mut Block, arms: &Arms, (a, b): (&mut Lanes, &mut Lanes), respo
     let (d1, d2) = (x1 - p1, x2 - p2);
     block.push = [x1, x2];
     let sum = d1 + d2;
-    let (px, pz) = (block.nx * sum, block.nz * sum);
-    a[VX] = a[VX] - a[INVERSE_MASS] * px;
-    a[VZ] = a[VZ] - a[INVERSE_MASS] * pz;
-    a[SPIN] = a[SPIN] - a[INVERSE_MOMENT] * (arms.lever_a[0] * d1 + arms.lever_a[1] * d2);
-    b[VX] = b[VX] + b[INVERSE_MASS] * px;
-    b[VZ] = b[VZ] + b[INVERSE_MASS] * pz;
-    b[SPIN] = b[SPIN] + b[INVERSE_MOMENT] * (arms.lever_b[0] * d1 + arms.lever_b[1] * d2);
-    (response.k[0] * d1).abs().max((response.k[1] * d2).abs())
+    let turn_a = a[INVERSE_MOMENT] * (arms.lever_a[0] * d1 + arms.lever_a[1] * d2);
+    let turn_b = b[INVERSE_MOMENT] * (arms.lever_b[0] * d1 + arms.lever_b[1] * d2);
+    give((a, b), MOTION, [block.nx * sum, block.nz * sum], [turn_a, turn_b]);
 }
 
-/// Pushes and friction as they stand, given to the bodies once more.
+/// The places of a row that displacements change, and those that impulses do.
+const PLACE: [usize; 3] = [X, Z, TURN];
+const MOTION: [usize; 3] = [VX, VZ, SPIN];
+
+/// Gives p to b and −p to a, by their masses, with what it turns them; at those places of their rows.
 #[inline(always)]
-pub(super) fn push_again(rows: &mut [Row], block: &Block) {
+fn give((a, b): (&mut Lanes, &mut Lanes), [x, z, turn]: [usize; 3], p: [Eight; 2], turned: [Eight; 2]) {
+    a[x] = a[x] - a[INVERSE_MASS] * p[0];
+    a[z] = a[z] - a[INVERSE_MASS] * p[1];
+    a[turn] = a[turn] - turned[0];
+    b[x] = b[x] + b[INVERSE_MASS] * p[0];
+    b[z] = b[z] + b[INVERSE_MASS] * p[1];
+    b[turn] = b[turn] + turned[1];
+}
+
+/// Gives pushes at both points and friction along the face to the bodies of a block.
+#[inline(always)]
+pub(super) fn push(block: &Block, arms: impl Fn(&Lanes, &Lanes) -> Arms, rows: &mut [Row], [p1, p2, pt]: [Eight; 3]) {
     let (mut a, mut b) = (gather(rows, &block.row_a), gather(rows, &block.row_b));
-    let arms = Arms::of(block, &a, &b);
-    let [p1, p2] = block.push;
-    let (sum, pt) = (p1 + p2, block.grip);
-    let (px, pz) = (block.nx * sum + block.nz * pt, block.nz * sum - block.nx * pt);
-    a[VX] = a[VX] - a[INVERSE_MASS] * px;
-    a[VZ] = a[VZ] - a[INVERSE_MASS] * pz;
-    a[SPIN] = a[SPIN] - a[INVERSE_MOMENT] * (arms.lever_a[0] * p1 + arms.lever_a[1] * p2 + arms.along_a * pt);
-    b[VX] = b[VX] + b[INVERSE_MASS] * px;
-    b[VZ] = b[VZ] + b[INVERSE_MASS] * pz;
-    b[SPIN] = b[SPIN] + b[INVERSE_MOMENT] * (arms.lever_b[0] * p1 + arms.lever_b[1] * p2 + arms.along_b * pt);
+    let arms = arms(&a, &b);
+    let sum = p1 + p2;
+    let p = [block.nx * sum + block.nz * pt, block.nz * sum - block.nx * pt];
+    let turn_a = a[INVERSE_MOMENT] * (arms.lever_a[0] * p1 + arms.lever_a[1] * p2 + arms.along_a * pt);
+    let turn_b = b[INVERSE_MOMENT] * (arms.lever_b[0] * p1 + arms.lever_b[1] * p2 + arms.along_b * pt);
+    give((&mut a, &mut b), MOTION, p, [turn_a, turn_b]);
     scatter(rows, &block.row_a, a);
     scatter(rows, &block.row_b, b);
 }

@@ -9,7 +9,7 @@ use crate::bodies::{Inertia, Motion};
 use crate::exchange::together::{Impulse, Point};
 use crate::frame::perp;
 use crate::ledger::{Forces, Ledger};
-use crate::plan::{FlightPlan, Plan};
+use crate::plan::Plan;
 use crate::world::World;
 
 /// The bodies that fly: all mobile ones, or one.
@@ -121,10 +121,7 @@ impl Continuous {
     fn forces(&self, plan: &Plan, body: usize) -> Forces {
         let free = self.free[body];
         let Holding { pressed, rubbed, worked } = self.holding.get(body).copied().unwrap_or_default();
-        let gravity = match plan.flight {
-            FlightPlan::Forced { gravity, .. } => gravity,
-            FlightPlan::Free => Vec2::zeros(),
-        };
+        let gravity = plan.gravity();
         Forces {
             gravity,
             pushed: Motion { v: free.a - gravity, omega: free.alpha },

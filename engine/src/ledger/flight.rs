@@ -80,10 +80,7 @@ impl Ledger {
 
     /// Books what stepped motion did in an iteration's advance.
     pub(crate) fn book_step(&mut self, bodies: &Bodies, movers: &[u32], flight: FlightPlan, dt: f64, pushes: &[Push]) {
-        let (gravity, drag) = match flight {
-            FlightPlan::Free => (Vec2::zeros(), (0.0, 0.0)),
-            FlightPlan::Forced { gravity, drag, .. } => (gravity, drag),
-        };
+        let (gravity, drag) = flight.forces();
         self.arrive(bodies, movers, |body| {
             let push = pushes.binary_search_by_key(&(body as u32), |push| push.body);
             let pushed = push.map_or(Motion::default(), |at| pushes[at].acceleration(bodies.inertia[body]));

@@ -3,7 +3,8 @@
 use choque_engine::scene::{Body, ExchangeRule, MotionRule, Settings};
 use choque_engine::{Scene, World};
 
-pub(crate) use crate::exact::kit::{Random, State, block, state, wall};
+use crate::exact::kit::energy_under;
+pub(crate) use crate::exact::kit::{Random, State, block, state, wall, watch};
 
 /// Gravity [m/s²].
 pub(crate) const G: f64 = 9.81;
@@ -46,17 +47,6 @@ pub(crate) fn steps(time: f64, time_step: f64) -> u32 {
     libm::ceil(time / time_step - 1e-9) as u32
 }
 
-/// Runs some steps; `look` sees the world after each.
-pub(crate) fn watch(scene: &Scene, steps: u32, mut look: impl FnMut(&World)) -> World {
-    let mut world = World::new(scene).expect("a valid scene");
-    for _ in 0..steps {
-        world.step();
-        assert_eq!(world.fault(), None);
-        look(&world);
-    }
-    world
-}
-
 /// A body's states: at the start, and after each step.
 pub(crate) fn course(scene: &Scene, name: &str, steps: u32) -> Vec<State> {
     let mut states = vec![state(&World::new(scene).expect("a valid scene"), name)];
@@ -66,8 +56,7 @@ pub(crate) fn course(scene: &Scene, name: &str, steps: u32) -> Vec<State> {
 
 /// Kinetic and potential energy of the mobile bodies [J], the latter from z = 0.
 pub(crate) fn energy(world: &World) -> f64 {
-    let lifted = world.ids().filter(|id| world.kind(*id) == choque_engine::scene::Kind::Mobile);
-    world.kinetic_energy() + lifted.map(|id| world.mass(id) * G * world.position(id).y).sum::<f64>()
+    energy_under(world, G)
 }
 
 /// The order in the time step that two errors show.

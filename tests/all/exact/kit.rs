@@ -179,3 +179,20 @@ impl Random {
         least + (greatest - least) * ((self.next() >> 11) as f64 / (1_u64 << 53) as f64)
     }
 }
+
+/// Runs some steps; `look` sees the world after each.
+pub(crate) fn watch(scene: &Scene, steps: u32, mut look: impl FnMut(&World)) -> World {
+    let mut world = World::new(scene).expect("a valid scene");
+    for _ in 0..steps {
+        world.step();
+        assert_eq!(world.fault(), None);
+        look(&world);
+    }
+    world
+}
+
+/// Kinetic and potential energy of the mobile bodies under a gravity along −z [J], the latter from z = 0.
+pub(crate) fn energy_under(world: &World, gravity: f64) -> f64 {
+    let lifted = world.ids().filter(|id| world.kind(*id) == Kind::Mobile);
+    world.kinetic_energy() + lifted.map(|id| world.mass(id) * gravity * world.position(id).y).sum::<f64>()
+}

@@ -3,7 +3,7 @@
 use choque_engine::World;
 use choque_engine::scene::Body;
 
-use super::kit::{block, fastest, floating, run, run_watching, standing, state, wall};
+use super::kit::{block, fastest, floating, run, standing, state, wall, watch};
 
 /// 512 kg at 40 m/s into rows of small boxes: all the momentum there will ever be.
 fn smash(columns: usize, rows: usize, steps: u32) {
@@ -16,7 +16,7 @@ fn smash(columns: usize, rows: usize, steps: u32) {
             bodies.push(block(&format!("box{i}_{j}"), (0.4, 0.4), at));
         }
     }
-    let world = run_watching(&floating(bodies), steps, |world| {
+    let world = watch(&floating(bodies), steps, |world| {
         let off = (world.momentum().x - MOMENTUM).abs().max(world.momentum().y.abs());
         assert!(off <= 1e-12 * MOMENTUM, "{}: momentum off by {off:e}", world.iteration());
     });
@@ -50,7 +50,7 @@ fn barrel(columns: usize, rows: usize, steps: u32) {
             bodies.push(block(&format!("box{column}_{row}"), (1.0, 1.0), at));
         }
     }
-    let world = run_watching(&standing(bodies), steps, |world| {
+    let world = watch(&standing(bodies), steps, |world| {
         for id in world.ids().skip(3) {
             let at = world.position(id);
             assert!(at.x.abs() < half && at.y > 0.0, "{}: {} is out {at}", world.iteration(), world.name(id));
@@ -84,7 +84,7 @@ fn confined(count: usize, size: (f64, f64), steps: u32) {
         let at = (pitch * (i % count) as f64 - middle, pitch * (i / count) as f64 - middle);
         bodies.push(block(&format!("box{i}"), (1.0, 1.0), at));
     }
-    run_watching(&floating(bodies), steps, |world| {
+    watch(&floating(bodies), steps, |world| {
         // A mean of 3 m/s: the speed at which other engines let overlaps part.
         let most = 4.5 * (count * count) as f64;
         assert!(world.kinetic_energy() < most, "{}: {} J", world.iteration(), world.kinetic_energy());

@@ -3,7 +3,7 @@
 use choque_engine::scene::{Body, Kind, Part};
 use choque_engine::{Rect, Scene};
 
-use super::kit::{block, run_watching, standing, state};
+use super::kit::{block, standing, state, watch};
 
 /// How fast drums turn \[rad/s\]: 25° a second.
 const SPIN: f64 = 25.0 * core::f64::consts::PI / 180.0;
@@ -40,7 +40,7 @@ fn grid(count: usize, side: f64, from: (f64, f64), pitch: f64) -> impl Iterator<
 
 fn assert_none_gets_out(scene: &Scene, half: f64, side: f64, steps: u32) {
     let farthest = half - side * (0.5 - PRESSED_IN);
-    run_watching(scene, steps, |world| {
+    watch(scene, steps, |world| {
         let drum = state(world, "drum");
         let (sin, cos) = (libm::sin(drum.angle), libm::cos(drum.angle));
         for id in world.ids().skip(1) {

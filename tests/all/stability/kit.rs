@@ -3,7 +3,7 @@
 use choque_engine::scene::{Body, ExchangeRule, Settings};
 use choque_engine::{Scene, World};
 
-pub(super) use crate::exact::kit::{Random, State, state, wall};
+pub(super) use crate::exact::kit::{Random, State, energy_under, state, wall, watch};
 
 /// Gravity's pull in all these scenes \[m/s²\].
 pub(super) const GRAVITY: f64 = 10.0;
@@ -49,19 +49,8 @@ pub(super) fn pyramid(name: &str, base: usize, side: f64, at: (f64, f64), pitch:
     bodies
 }
 
-/// Runs some steps; `look` sees the world after each.
-pub(super) fn run_watching(scene: &Scene, steps: u32, mut look: impl FnMut(&World)) -> World {
-    let mut world = World::new(scene).expect("a valid scene");
-    for _ in 0..steps {
-        world.step();
-        assert_eq!(world.fault(), None);
-        look(&world);
-    }
-    world
-}
-
 pub(super) fn run(scene: &Scene, steps: u32) -> World {
-    run_watching(scene, steps, |_| ())
+    watch(scene, steps, |_| ())
 }
 
 /// All mobile bodies' states, in order of creation.

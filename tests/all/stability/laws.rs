@@ -1,14 +1,12 @@
 //! What holds whatever stands or falls: energy comes from somewhere, and one body's end is not the others'.
 
-use choque_engine::scene::Kind;
 use choque_engine::{Scene, Vec2, World};
 
-use super::kit::{GRAVITY, Random, block, ground, pyramid, run_watching, standing, states, wall};
+use super::kit::{GRAVITY, Random, block, energy_under, ground, pyramid, standing, states, wall, watch};
 
 /// Motion and height together \[J\].
 fn energy(world: &World) -> f64 {
-    let mobile = world.ids().filter(|&id| world.kind(id) == Kind::Mobile);
-    world.kinetic_energy() + mobile.map(|id| world.mass(id) * GRAVITY * world.position(id).y).sum::<f64>()
+    energy_under(world, GRAVITY)
 }
 
 /// Energy may not rise in any step by more than 1e-5 of what there was: bodies in each other are moved apart without a change of
@@ -16,7 +14,7 @@ fn energy(world: &World) -> f64 {
 fn assert_energy_never_rises(scene: &Scene, steps: u32) {
     let start = energy(&World::new(scene).expect("a valid scene"));
     let (mut before, mut most) = (start, 0.0_f64);
-    run_watching(scene, steps, |world| {
+    watch(scene, steps, |world| {
         let now = energy(world);
         most = most.max(now - before);
         before = now;
