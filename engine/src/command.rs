@@ -16,7 +16,7 @@ impl World {
     pub fn set_position(&mut self, id: BodyId, position: Vec2) -> Result<(), CommandError> {
         self.finite(id, "x", position.x)?;
         self.finite(id, "z", position.y)?;
-        self.interrupt(id.index());
+        self.disturb(id);
         self.part_seams(id);
         let o = position - self.plan.origin;
         self.command(id.index(), |bodies| bodies.place(id.index(), o));
@@ -29,7 +29,7 @@ impl World {
     /// An angle that is not finite.
     pub fn set_angle(&mut self, id: BodyId, angle: f64) -> Result<(), CommandError> {
         self.finite(id, "angle", angle)?;
-        self.interrupt(id.index());
+        self.disturb(id);
         self.part_seams(id);
         self.command(id.index(), |bodies| bodies.set_angle(id.index(), angle));
         Ok(())
@@ -42,7 +42,7 @@ impl World {
     pub fn set_velocity(&mut self, id: BodyId, velocity: Vec2) -> Result<(), CommandError> {
         self.finite(id, "vx", velocity.x)?;
         self.finite(id, "vz", velocity.y)?;
-        self.interrupt(id.index());
+        self.disturb(id);
         self.command(id.index(), |bodies| bodies.motion[id.index()].v = velocity);
         self.give_physics(id);
         self.movers.end_course(id.index());
@@ -55,7 +55,7 @@ impl World {
     /// A spin that is not finite.
     pub fn set_spin(&mut self, id: BodyId, spin: f64) -> Result<(), CommandError> {
         self.finite(id, "spin", spin)?;
-        self.interrupt(id.index());
+        self.disturb(id);
         self.command(id.index(), |bodies| bodies.motion[id.index()].omega = spin);
         self.give_physics(id);
         self.movers.end_swing(id.index());
@@ -96,6 +96,14 @@ impl World {
             }
         };
         Ok(&mut self.pushes[at])
+    }
+
+    /// Something is about to be done to a body: what is foreseen of it no longer holds.
+    fn disturb(&mut self, id: BodyId) {
+        self.interrupt(id.index());
+        if let Some(contacts) = &mut self.contacts {
+            contacts.wake();
+        }
     }
 
     fn finite(&self, id: BodyId, what: &str, value: f64) -> Result<(), CommandError> {

@@ -73,6 +73,7 @@ pub mod world;
 
 pub use area::{Extent, Rect, Vec2};
 pub use check::BadNumber;
+pub use contact::Load;
 pub use error::{CommandError, Fault, SceneError};
 pub use exchange::PairKind;
 pub use ledger::Ledger;

@@ -24,10 +24,11 @@ fn gap(world: &World) -> f64 {
     let initial = ledger.initial().to_array();
     let booked = Cause::ALL.map(|cause| ledger.booked(cause).to_array());
     let energy = initial[0] + booked.iter().map(|amounts| amounts[0].abs()).sum::<f64>();
+    let taken: f64 = booked.iter().map(|amounts| amounts[1].abs() + amounts[2].abs()).sum();
     let mut sizes = [0.0; 4];
     for id in world.ids().filter(|id| world.kind(*id) == Kind::Mobile) {
-        // What is left when all has come to rest is rounding of what there was: that much counts as something.
-        let rounded = f64::EPSILON * (2.0 * energy * world.mass(id)).sqrt();
+        // What is left where all is at rest is rounding of what there was, or was given and taken: that much counts as something.
+        let rounded = f64::EPSILON * ((2.0 * energy * world.mass(id)).sqrt() + taken);
         let momentum = world.mass(id) * world.velocity(id).norm() + rounded;
         let spin = world.inertia(id) * world.spin(id);
         sizes[1] += momentum;

@@ -82,6 +82,22 @@ impl Blocks {
         }
     }
 
+    /// All push so many times as hard.
+    pub(super) fn scale_pushes(&mut self, times: f64) {
+        let times = Eight::all(times);
+        for block in &mut self.blocks {
+            block.push = block.push.map(|push| push * times);
+            block.grip = block.grip * times;
+        }
+    }
+
+    /// Whether some points are in each other.
+    pub(super) fn are_overlapped(&self) -> bool {
+        let deepest = |block: &Block| block.least[0].min(block.least[1]);
+        let deepest = self.blocks.iter().map(deepest).fold(Eight::ZERO, Eight::min);
+        (-deepest).greatest() > 0.0
+    }
+
     /// The pushes and friction of a touch.
     pub(super) fn pushes(&self, k: usize) -> ([f64; 2], f64) {
         let (block, lane) = self.place[k];

@@ -60,14 +60,14 @@ pub(super) struct Fliers {
 }
 
 impl Fliers {
-    /// A step begins: contacts push as they did at the end of the last.
-    pub(super) fn begin(&mut self, rows: &Rows, touches: &[Touch], of_touch: &[(u32, u32)]) {
+    /// A step begins: contacts push so many times as hard as they did at the end of the last.
+    pub(super) fn begin(&mut self, rows: &Rows, (touches, of_touch): (&[Touch], &[(u32, u32)]), times: f64) {
         self.fliers.clear();
         self.fliers.resize(rows.mobile.len(), Flier::default());
         self.spent.clear();
         self.spent.resize(rows.rows.len(), 0.0);
         self.spenders.clear();
-        self.carry(rows, touches, of_touch);
+        self.carry(rows, (touches, of_touch), times);
     }
 
     /// Over sub-steps of that length something acts on bodies, with these decay rates; nothing does without any.
@@ -75,8 +75,8 @@ impl Fliers {
         self.coefficients = drag.map(|drag| (Flight::new(drag.0, h), Flight::new(drag.1, h)));
     }
 
-    /// Contacts push as their touches say.
-    pub(super) fn carry(&mut self, rows: &Rows, touches: &[Touch], of_touch: &[(u32, u32)]) {
+    /// Contacts push so many times as hard as their touches say.
+    pub(super) fn carry(&mut self, rows: &Rows, (touches, of_touch): (&[Touch], &[(u32, u32)]), times: f64) {
         self.fliers.iter_mut().for_each(|flier| flier.carried = [0.0; 3]);
         for (touch, (row_a, row_b)) in touches.iter().zip(of_touch) {
             let sum = touch.push[0] + touch.push[1];
@@ -93,7 +93,8 @@ impl Fliers {
             ];
             for (row, sign, twist) in ends {
                 let Some(k) = rows.mobile_of(row) else { continue };
-                let (row, carried) = (&rows.rows[row as usize].0, &mut self.fliers[k].carried);
+                let carried = &mut self.fliers[k].carried;
+                let (sign, row) = (sign * times, &rows.rows[row as usize].0);
                 carried[0] += sign * row[INVERSE_MASS] * p.x;
                 carried[1] += sign * row[INVERSE_MASS] * p.y;
                 carried[2] += sign * row[INVERSE_MOMENT] * twist;
@@ -118,6 +119,13 @@ impl Fliers {
             fastest = fastest.max(square(row));
         }
         now > free * (1.0 + 1e-12) + TWICE * given || fastest > TWICE * fastest_free.max(driven)
+    }
+
+    /// Nothing that forces do in the time brings a body anywhere: all stand where they are.
+    pub(super) fn stay(&mut self, rows: &Rows, time: f64) {
+        for (row, flier) in rows.rows[IDLE..].iter().zip(&mut self.fliers) {
+            flier.way = flier.changed(&row.0).map(|changed| -(0.5 * time) * changed);
+        }
     }
 
     /// The motions of bodies on which no contact pushes.

@@ -17,6 +17,7 @@ mod blocks;
 mod booked;
 mod find;
 mod flying;
+mod loads;
 mod look;
 mod meeting;
 #[cfg(test)]
@@ -26,6 +27,7 @@ mod rest;
 mod rows;
 mod search;
 mod settle;
+mod stand;
 mod strike;
 mod sweep;
 mod swept;
@@ -48,6 +50,8 @@ use rows::Rows;
 use search::Search;
 use sweep::{Part, Sweep};
 use touch::Touch;
+
+pub use loads::Load;
 
 /// Overlaps found at the start of a step are let go at this rate \[1/s\]: a fifth of them in a sixtieth of a second.
 const RECOVERY: f64 = 12.0;
@@ -110,6 +114,8 @@ pub(crate) struct Contacts {
     crowd: Vec<u32>,
     /// Touches of which it is known that they do not meet within the sub-step.
     clear: Vec<u32>,
+    /// Whether all stands and nothing has been done since: a step changes nothing.
+    asleep: bool,
     /// How far a fixed body reaches from its centre at most \[m\].
     reach: f64,
     /// What is left of an overlap after a step in which it may recover.
@@ -139,6 +145,7 @@ impl Contacts {
             lonely: Vec::new(),
             crowd: Vec::new(),
             clear: Vec::new(),
+            asleep: false,
             reach: (0..bodies.len())
                 .filter(|body| !bodies.is_mobile(*body))
                 .map(|body| bodies.reach(body))
@@ -150,7 +157,7 @@ impl Contacts {
 
     /// What decides how the world goes on, for its digest.
     pub(crate) fn words(&self) -> impl Iterator<Item = u64> {
-        self.touches.iter().flat_map(Touch::words).chain([u64::from(self.patience)])
+        self.touches.iter().flat_map(Touch::words).chain([u64::from(self.patience) << 1 | u64::from(self.asleep)])
     }
 
     /// The next hit to be told.
@@ -164,11 +171,10 @@ impl World {
     /// found anew.
     pub(crate) fn begin_contacts(&mut self, contacts: &mut Contacts) {
         let whole = self.plan.time_step;
-        let few = (1..=A_FEW).contains(&contacts.touches.len());
-        let parts = if few { contacts.plan.substeps } else { 1 };
         contacts.untold.clear();
         contacts.touches.iter_mut().for_each(|touch| touch.met = false);
         contacts.pull(self);
+        let parts = if self.stand(contacts) { 0 } else { contacts.parts() };
         for part in 1..=parts {
             if self.fault.is_some() {
                 break;
@@ -193,14 +199,13 @@ impl World {
             let h = dt / f64::from(substeps);
             let drag = (!contacts.pulls.is_empty()).then(|| self.plan.flight.forces().1);
             contacts.fliers.pace(drag, h);
-            contacts.fliers.begin(&contacts.rows, &contacts.touches, &contacts.of_touch);
+            contacts.fliers.begin(&contacts.rows, (&contacts.touches, &contacts.of_touch), 1.0);
             for _ in 0..substeps {
                 contacts.substep(self, h);
             }
-            let Contacts { width, rows, blocks, band, .. } = contacts;
-            width.run(Part { rows: &mut rows.rows, blocks: &blocks.blocks, band: *band });
+            contacts.part_overlaps();
         }
-        contacts.settle(self);
+        contacts.settle(self, 1.0);
         self.fly_alone(contacts, dt);
         contacts.close_books(self, dt);
         for prescription in &self.movers.prescribed {
@@ -234,6 +239,12 @@ impl World {
 }
 
 impl Contacts {
+    /// In how many parts the step is solved.
+    fn parts(&self) -> u32 {
+        let few = (1..=A_FEW).contains(&self.touches.len());
+        if few { self.plan.substeps } else { 1 }
+    }
+
     /// Lays bodies and touches out for the solver.
     fn lay_out(&mut self, world: &World, dt: f64) {
         if self.touches.is_empty() {
@@ -293,7 +304,7 @@ impl Contacts {
             if left > UNBALANCED * pulled {
                 let pull = world.plan.gravity() * h;
                 weights::guess(&mut self.touches, &self.of_touch, &self.rows, &world.bodies, pull, self.band);
-                self.fliers.carry(&self.rows, &self.touches, &self.of_touch);
+                self.fliers.carry(&self.rows, (&self.touches, &self.of_touch), 1.0);
                 self.fliers.renew(&mut self.rows);
                 self.blocks.renew(&self.touches);
             }
@@ -320,6 +331,12 @@ impl Contacts {
             self.sweep(sweep % 2 == 1);
         }
         world.work.touches_solved += (sweeps * self.touches.len()) as u64;
+    }
+
+    /// Bodies still deeper in each other than they may be by now are moved apart, once round.
+    fn part_overlaps(&mut self) {
+        let (rows, blocks) = (&mut self.rows.rows[..], &self.blocks.blocks[..]);
+        self.width.run(Part { rows, blocks, band: self.band });
     }
 
     /// What every point asks for in the sub-step.

@@ -30,7 +30,7 @@ pub(super) struct Effort {
 
 impl Effort {
     /// Changes of velocity that do not count \[m/s\].
-    fn settled(&self, touches: usize) -> f64 {
+    pub(super) fn settled(&self, touches: usize) -> f64 {
         let many = (touches as f64 / A_FEW).max(1.0);
         SETTLED * many * many * self.pulled
     }

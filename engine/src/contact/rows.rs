@@ -95,6 +95,21 @@ impl Rows {
         (k < self.mobile.len()).then_some(k)
     }
 
+    /// Whether no mobile body is faster than that, at its radius of gyration either.
+    pub(super) fn are_slower_than(&self, limit: f64) -> bool {
+        let mobile = &self.rows[IDLE..IDLE + self.mobile.len()];
+        mobile.iter().all(|Row(row)| {
+            let turning = row[SPIN] * row[SPIN] * row[INVERSE_MASS] / row[INVERSE_MOMENT];
+            row[VX] * row[VX] + row[VZ] * row[VZ] + turning <= limit * limit
+        })
+    }
+
+    /// All mobile bodies stop.
+    pub(super) fn stop(&mut self) {
+        let count = self.mobile.len();
+        self.rows[IDLE..IDLE + count].iter_mut().for_each(|row| row.set_motion(Motion::default()));
+    }
+
     /// Whether the body has a row.
     pub(super) fn has(&self, body: u32) -> bool {
         self.row_of[body as usize] != NONE

@@ -9,8 +9,8 @@ use crate::step::Hit;
 use crate::world::{BodyId, World};
 
 impl Contacts {
-    /// Bodies take their places and motions; touches remember what they pushed.
-    pub(super) fn settle(&mut self, world: &mut World) {
+    /// Bodies take their places and motions; touches remember that share of what they pushed.
+    pub(super) fn settle(&mut self, world: &mut World, share: f64) {
         if self.touches.is_empty() {
             return;
         }
@@ -28,7 +28,8 @@ impl Contacts {
         }
         for k in 0..self.touches.len() {
             let touch = &mut self.touches[k];
-            (touch.push, touch.grip) = self.blocks.pushes(k);
+            let (push, grip) = self.blocks.pushes(k);
+            (touch.push, touch.grip) = (push.map(|push| push * share), grip * share);
             let pressed = touch.push[0] + touch.push[1] > 0.0;
             let was_open = touch.gap[0].min(touch.gap[1]) > self.band;
             let is_new = pressed && !touch.touching && was_open && self.lonely.binary_search(&(k as u32)).is_err();

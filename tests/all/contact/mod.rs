@@ -28,7 +28,7 @@ mod crush;
 mod dominoes;
 mod energy;
 mod kit;
-// mod loads; // needs `World::loads`
+mod loads;
 mod rocking;
 mod sliding;
 mod stacks;

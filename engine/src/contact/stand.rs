@@ -1,0 +1,92 @@
+//! A step of a scene that stands still: solved as one, not in sub-steps.
+//!
+//! Sub-steps follow what moves. Where nothing does, one balance of forces over the whole step says the same, for a share of the
+//! cost; what is left of velocities below what balancing resolves is none, so that what stands stays where it is to the last
+//! digit. A balance is accepted only where it leaves everything standing; else nothing has happened, and the step is taken in
+//! sub-steps.
+//!
+//! With `sleeping(true)` a scene that has stood through a step sleeps until something is done to it: its steps cost nothing.
+
+use super::Contacts;
+use super::rest::Effort;
+use crate::bodies::Motion;
+use crate::world::World;
+
+/// Rounds that forces may take to balance.
+const ROUNDS: u32 = 8;
+
+/// A scene is worth the try if no body is faster than so many times what balancing resolves.
+const NEARLY: f64 = 4.0;
+
+impl World {
+    /// A whole step as one, if all stands still and goes on doing so; whether it does.
+    pub(super) fn stand(&mut self, contacts: &mut Contacts) -> bool {
+        if contacts.asleep && self.pushes.is_empty() {
+            return true;
+        }
+        contacts.asleep = false;
+        let dt = self.plan.time_step;
+        let pulled = self.plan.gravity().norm() * dt;
+        let effort = Effort { pulled, most: ROUNDS };
+        let limit = NEARLY * effort.settled(contacts.touches.len());
+        if pulled == 0.0 || contacts.plan.substeps == 1 || !contacts.presses() || !self.stands_still(limit) {
+            return false;
+        }
+        contacts.find(self, dt);
+        contacts.lay_out(self, dt);
+        if !contacts.balance(self, dt, effort) {
+            return false;
+        }
+        let time = self.advances as f64 * dt;
+        contacts.open_books(self, time);
+        contacts.book_substep(self, dt);
+        if contacts.blocks.are_overlapped() {
+            contacts.part_overlaps();
+        }
+        contacts.settle(self, 1.0 / f64::from(contacts.plan.substeps));
+        self.fly_alone(contacts, dt);
+        contacts.close_books(self, dt);
+        contacts.asleep = contacts.plan.sleeping && self.stands_still(0.0) && !contacts.blocks.are_overlapped();
+        true
+    }
+
+    /// Whether no body is faster than that, at its radius of gyration either, and nothing is driven.
+    fn stands_still(&self, limit: f64) -> bool {
+        let bodies = &self.bodies;
+        let rests = |body: &u32| bodies.motion[*body as usize] == Motion::default();
+        let slow = |body: &u32| {
+            let (Motion { v, omega }, inertia) = (bodies.motion[*body as usize], bodies.inertia[*body as usize]);
+            v.norm_squared() + omega * omega * inertia.moment / inertia.mass <= limit * limit
+        };
+        self.movers.prescribed.is_empty() && self.movers.fixed.iter().all(rests) && self.movers.mobile.iter().all(slow)
+    }
+}
+
+impl Contacts {
+    /// Something has been done to a body: nothing sleeps any more.
+    pub(crate) fn wake(&mut self) {
+        self.asleep = false;
+    }
+
+    /// Balances all forces over a step; whether they do and leave everything standing.
+    fn balance(&mut self, world: &mut World, dt: f64, effort: Effort) -> bool {
+        if self.touches.is_empty() {
+            return false;
+        }
+        let times = f64::from(self.plan.substeps);
+        self.fliers.pace((!self.pulls.is_empty()).then(|| world.plan.flight.forces().1), dt);
+        self.fliers.begin(&self.rows, (&self.touches, &self.of_touch), times);
+        self.blocks.scale_pushes(times);
+        // What little still moves is to stop, not to come back.
+        self.look(dt, 0.0);
+        self.fliers.set_out(&mut self.rows, &self.pulls, dt);
+        self.fliers.renew(&mut self.rows);
+        let balanced = self.settle_for(world, effort).enough;
+        let stand = balanced && self.rows.are_slower_than(effort.settled(self.touches.len()));
+        if stand {
+            self.rows.stop();
+            self.fliers.stay(&self.rows, dt);
+        }
+        stand
+    }
+}
