@@ -68,6 +68,22 @@ impl Side {
     }
 }
 
+impl Side {
+    /// How fast the middle of the rectangle moves.
+    #[inline(always)]
+    fn middle_moves(&self) -> Pair {
+        let [x, z] = outward(self.axis, self.centre);
+        [self.v[0] - self.omega * z, self.v[1] + self.omega * x]
+    }
+
+    /// 0 where the body stands still and nothing acts on it.
+    #[inline(always)]
+    fn moves(&self) -> Eight {
+        let sum = |of: Pair| of[0].abs() + of[1].abs();
+        sum(self.v) + sum(self.acceleration) + self.omega.abs() + self.angular.abs()
+    }
+}
+
 #[inline(always)]
 pub(super) fn outward([cos, sin]: Pair, [x, z]: Pair) -> Pair {
     [cos * x - sin * z, sin * x + cos * z]
@@ -213,6 +229,45 @@ impl Abreast {
     #[inline(always)]
     pub(super) fn may(&self) -> Flag {
         at_least(self.depth, -self.margin)
+    }
+
+    /// Which pairs stay apart for a time unless something is done to their bodies: an axis holds them apart in spite of all that
+    /// they move and turn, whether or not what pulls at them is held by others; or they touch, and stand as still as can be.
+    #[inline(always)]
+    pub(super) fn stay_apart(&self, dt: f64) -> Flag {
+        let (one, two) = (&self.one, &self.two);
+        let room = self.room(&self.two_seen, one, two, dt).max(self.room(&self.one_seen, two, one, dt));
+        let still = at_least(Eight::ZERO, one.moves() + two.moves());
+        let no_deeper = at_least(Eight::all(super::TOUCHING) * self.small(), self.depth);
+        less(Eight::ZERO, room).max(still.min(no_deeper))
+    }
+
+    /// The least gap within a time along one of the reference's axes, as it points when the time begins, whichever is wider.
+    ///
+    /// Corners move along arcs: in a straight line, but for half of ω² r t². Along an axis, the deepest of straight lines is deepest
+    /// at one of the ends.
+    #[inline(always)]
+    fn room(&self, seen: &Seen, reference: &Side, other: &Side, dt: f64) -> Eight {
+        let (time, half) = (Eight::all(dt), Eight::all(0.5));
+        let bent = |of: &Side| (of.omega * of.omega + of.angular.abs()) * of.far;
+        let bent = half * (bent(reference) + bent(other)) * time * time;
+        let u = inward(reference.axis, sub(other.middle_moves(), reference.middle_moves()));
+        let pulled = |of: &Side| inward(reference.axis, of.acceleration).map(Eight::abs);
+        let pulled = add(pulled(reference), pulled(other));
+        let [c, s] = seen.axis;
+        // The other's x and z axes along the reference's, and turned on by the end.
+        let turn = other.omega * time;
+        let after = [[c - turn * s, -s - turn * c], [s + turn * c, c - turn * s]];
+        let spun = reference.omega.abs() * time;
+        let room = |k: usize| {
+            let end = seen.d[k] + u[k] * time;
+            let end = seen.d[k].pick(end, -end);
+            let reach = reference.half[k]
+                + spun * reference.half[1 - k]
+                + (other.half[0] * after[k][0].abs() + other.half[1] * after[k][1].abs());
+            (end - reach).min(-seen.depth[k]) - half * pulled[k] * time * time
+        };
+        room(0).max(room(1)) - bent
     }
 
     /// Which pairs are so deep in each other that it matters how they came.

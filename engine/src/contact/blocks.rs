@@ -35,21 +35,39 @@ pub(super) struct Block {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Blocks {
     pub(super) blocks: Vec<Block>,
-    /// The block and lane of each touch.
+    /// The block and lane of each touch; `NOWHERE` of those that are left to impacts.
     pub(super) place: Vec<(u32, u8)>,
+    /// How many touches are laid out.
+    pub(super) count: usize,
     colour: Vec<u8>,
     taken: Vec<u64>,
     counts: Vec<u32>,
     next: Vec<u32>,
+    /// How many lanes of the last block are used, if it is one of those that came later.
+    more: Option<usize>,
 }
+
+/// The place of a touch that is not laid out.
+pub(super) const NOWHERE: (u32, u8) = (u32::MAX, 0);
 
 /// Colours that touches share; a body with more touches than this has the others solved one by one.
 const SHARED: usize = 63;
 
+/// The colour of those that are left out.
+const LEFT: u8 = u8::MAX;
+
 impl Blocks {
-    /// Lays the touches out, with the rows of their bodies.
-    pub(super) fn fill(&mut self, touches: &[Touch], of_touch: &[(u32, u32)], rows: &Rows, keep: f64, band: f64) {
-        self.colour(of_touch, rows);
+    /// Lays the touches out, with the rows of their bodies; but for those that are `left` out, which are in order.
+    pub(super) fn fill(
+        &mut self,
+        (touches, of_touch): (&[Touch], &[(u32, u32)]),
+        left: &[u32],
+        rows: &Rows,
+        (keep, band): (f64, f64),
+    ) {
+        self.colour(of_touch, left, rows);
+        self.count = touches.len() - left.len();
+        self.more = None;
         let mut begin = 0;
         self.next.clear();
         for (colour, count) in self.counts.iter().enumerate() {
@@ -60,6 +78,10 @@ impl Blocks {
         self.blocks.resize(begin as usize, Block::idle());
         self.place.clear();
         for ((touch, rows), colour) in touches.iter().zip(of_touch).zip(&self.colour) {
+            if *colour == LEFT {
+                self.place.push(NOWHERE);
+                continue;
+            }
             let at = &mut self.next[*colour as usize];
             let (block, lane) = (*at / LANES as u32, *at as usize % LANES);
             *at += if *colour as usize == SHARED { LANES as u32 } else { 1 };
@@ -68,10 +90,42 @@ impl Blocks {
         }
     }
 
+    /// Lays out one touch more, after all others: in the last block that has room and none of its bodies, if that is one of these.
+    pub(super) fn add(&mut self, k: usize, touch: &Touch, (a, b): (u32, u32), (keep, band): (f64, f64)) {
+        let open = self.more.filter(|lane| *lane < LANES && !self.blocks.last().is_some_and(|block| block.has(a, b)));
+        let lane = open.unwrap_or_else(|| {
+            self.blocks.push(Block::idle());
+            0
+        });
+        self.more = Some(lane + 1);
+        self.count += 1;
+        let block = self.blocks.len() - 1;
+        self.blocks[block].set(lane, touch, (a, b), keep, band);
+        self.place.resize(self.place.len().max(k + 1), NOWHERE);
+        self.place[k] = (block as u32, lane as u8);
+    }
+
+    /// The block and lane of a touch that is laid out.
+    pub(super) fn lane(&self, k: usize) -> Option<(&Block, usize)> {
+        let (block, lane) = self.place[k];
+        Some((self.blocks.get(block as usize)?, lane as usize))
+    }
+
+    fn lane_mut(&mut self, k: usize) -> Option<(&mut Block, usize)> {
+        let (block, lane) = self.place[k];
+        Some((self.blocks.get_mut(block as usize)?, lane as usize))
+    }
+
+    /// From which block on those lie that come later.
+    pub(super) fn later(&self) -> usize {
+        self.blocks.len() - usize::from(self.more.is_some())
+    }
+
     /// Lays a touch out anew.
     pub(super) fn set(&mut self, k: usize, touch: &Touch, rows: (u32, u32), keep: f64, band: f64) {
-        let (block, lane) = self.place[k];
-        self.blocks[block as usize].set(lane as usize, touch, rows, keep, band);
+        if let Some((block, lane)) = self.lane_mut(k) {
+            block.set(lane, touch, rows, keep, band);
+        }
     }
 
     /// Nothing is pushed any more.
@@ -100,9 +154,8 @@ impl Blocks {
 
     /// The pushes and friction of a touch.
     pub(super) fn pushes(&self, k: usize) -> ([f64; 2], f64) {
-        let (block, lane) = self.place[k];
-        let (block, lane) = (&self.blocks[block as usize], lane as usize);
-        (block.push.map(|push| push.0[lane]), block.grip.0[lane])
+        self.lane(k)
+            .map_or_else(Default::default, |(block, lane)| (block.push.map(|push| push.0[lane]), block.grip.0[lane]))
     }
 
     /// Whether a touch presses: it has done so in the sub-step before.
@@ -113,14 +166,15 @@ impl Blocks {
 
     /// A point of a touch asks for nothing in this sub-step.
     pub(super) fn ask_nothing(&mut self, k: usize, p: usize) {
-        let (block, lane) = self.place[k];
-        self.blocks[block as usize].asked[p].0[lane as usize] = -FAR;
+        if let Some((block, lane)) = self.lane_mut(k) {
+            block.asked[p].0[lane] = -FAR;
+        }
     }
 
     /// Takes over the pushes of the touches.
     pub(super) fn renew(&mut self, touches: &[Touch]) {
-        for (touch, (block, lane)) in touches.iter().zip(&self.place) {
-            let (block, lane) = (&mut self.blocks[*block as usize], *lane as usize);
+        for (k, touch) in touches.iter().enumerate() {
+            let Some((block, lane)) = self.lane_mut(k) else { continue };
             for k in 0..2 {
                 block.push[k].0[lane] = touch.push[k];
             }
@@ -129,15 +183,20 @@ impl Blocks {
     }
 
     /// Chooses each touch's colour, and counts how many have each.
-    fn colour(&mut self, of_touch: &[(u32, u32)], rows: &Rows) {
+    fn colour(&mut self, of_touch: &[(u32, u32)], left: &[u32], rows: &Rows) {
         self.taken.clear();
         self.taken.resize(rows.rows.len(), 0);
         self.colour.clear();
         self.counts.clear();
-        for &(a, b) in of_touch {
+        let mut left = left.iter().peekable();
+        for (k, &(a, b)) in of_touch.iter().enumerate() {
+            if left.next_if(|next| **next as usize == k).is_some() {
+                self.colour.push(LEFT);
+                continue;
+            }
             let free = !(self.taken[a as usize] | self.taken[b as usize]);
             let colour = (free.trailing_zeros() as usize).min(SHARED);
-            for row in [a, b] {
+            for row in [a, b].into_iter().filter(|row| rows.mobile_of(*row).is_some()) {
                 self.taken[row as usize] |= 1 << colour;
             }
             if self.counts.len() <= colour {
@@ -171,6 +230,11 @@ impl Block {
             grip: zero,
             asked: [zero; 2],
         }
+    }
+
+    /// Whether a row stands in one of its lanes.
+    fn has(&self, a: u32, b: u32) -> bool {
+        self.row_a.iter().chain(&self.row_b).any(|row| *row == a || *row == b)
     }
 
     fn set(&mut self, lane: usize, touch: &Touch, (row_a, row_b): (u32, u32), keep: f64, band: f64) {

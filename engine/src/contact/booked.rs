@@ -1,7 +1,7 @@
 //! What the contact solver tells the ledger, where one is kept.
 
 use super::Contacts;
-use super::rows::{IDLE, X, Z};
+use super::rows::{X, Z};
 use super::sweep::{Arms, gather};
 use crate::area::Vec2;
 use crate::bodies::Motion;
@@ -33,7 +33,7 @@ impl Contacts {
         let mobile = || [row_a, row_b].into_iter().filter_map(|row| self.rows.mobile_of(row));
         let pair = || mobile().map(|at| self.rows.mobile[at] as usize);
         if let Some(ledger) = &mut world.ledger {
-            let spent = mobile().map(|at| self.fliers.spent[IDLE + at]).fold(0.0, f64::max);
+            let spent = mobile().map(|at| self.fliers.spent[self.rows.first() + at]).fold(0.0, f64::max);
             ledger.meet(&world.bodies, pair(), spent);
         }
         let act = world.act(manifold);
@@ -62,11 +62,11 @@ impl Contacts {
     pub(super) fn close_books(&self, world: &mut World, dt: f64) {
         let World { ledger: Some(ledger), bodies, movers, plan, .. } = world else { return };
         let solved = !self.touches.is_empty();
-        for body in movers.mobile.iter().filter(|body| !(solved && self.rows.has(**body))) {
+        for body in movers.mobile.iter().filter(|body| !(solved && self.rows.of(**body).is_some())) {
             ledger.flown_alone(bodies, *body as usize, dt, &self.forces(plan, *body as usize));
         }
         for (k, body) in self.rows.mobile.iter().enumerate().filter(|_| solved) {
-            ledger.settle_in(bodies, *body as usize, self.rows.rows[IDLE + k].place());
+            ledger.settle_in(bodies, *body as usize, self.rows.of_mobile()[k].place());
         }
     }
 
@@ -79,10 +79,10 @@ impl Contacts {
     }
 
     fn stint(&self, k: usize, h: f64) -> Stint {
-        let (at, flier) = (&self.rows.rows[IDLE + k], &self.fliers.fliers[k]);
+        let (at, flier) = (&self.rows.of_mobile()[k], &self.fliers.fliers[k]);
         let row = &at.0;
         let body = self.rows.mobile[k] as usize;
-        let time = h - self.fliers.spent[IDLE + k];
+        let time = h - self.fliers.spent[self.rows.first() + k];
         let by_force = flier.is_forced(row, self.pulls.get(body), h);
         let [vx, vz, spin] = flier.free;
         let [x, z, turn] = flier.goes(row, time, by_force);
@@ -100,8 +100,7 @@ impl Contacts {
 
     /// What a touch has pushed, unless it has not.
     fn pressing(&self, touch: usize) -> Option<Pressing> {
-        let (block, lane) = self.blocks.place[touch];
-        let (block, lane) = (&self.blocks.blocks[block as usize], lane as usize);
+        let (block, lane) = self.blocks.lane(touch)?;
         let of = |lanes: Eight| lanes.0[lane];
         let (push, grip) = (block.push.map(of), of(block.grip));
         if push == [0.0; 2] && grip == 0.0 {

@@ -67,8 +67,9 @@ impl Contacts {
         let acting = Acting { each: &self.pulls, on_all };
         self.search.pairs((bodies, acting, dt), plan.broad_phase, self.width, work);
         let earlier = |body: usize| frame_before(bodies, plan.flight, plan.time_step, body);
-        let Contacts { search, touches, before, width, .. } = self;
-        width.run(Look { bodies, acting, search, before, touches, dt, earlier });
+        let Contacts { search, touches, before, apart, width, .. } = self;
+        let apart = apart.begin();
+        width.run(Look { bodies, acting, search, before, touches, apart, dt, earlier });
         work.pairs_listed += self.touches.len() as u64;
     }
 }
@@ -80,6 +81,8 @@ struct Look<'a, F> {
     search: &'a Search,
     before: &'a [Touch],
     touches: &'a mut Vec<Touch>,
+    /// Pairs that stay apart unless something is done to them.
+    apart: &'a mut Vec<(u32, u32)>,
     dt: f64,
     /// Where a body stood a step ago.
     earlier: F,
@@ -90,7 +93,7 @@ impl<F: Fn(usize) -> Frame + Copy> Work for Look<'_, F> {
 
     #[inline(always)]
     fn run(self) {
-        let Look { bodies, acting, search, before, touches, dt, earlier } = self;
+        let Look { bodies, acting, search, before, touches, apart, dt, earlier } = self;
         let mut next = 0;
         for keys in search.near().chunks(LANES) {
             let mut one = [search.placed(bodies, keys[0].0); LANES];
@@ -99,7 +102,12 @@ impl<F: Fn(usize) -> Frame + Copy> Work for Look<'_, F> {
                 (one[k], two[k]) = (search.placed(bodies, key.0), search.placed(bodies, key.1));
             }
             let pairs = Abreast::new(Side::of(bodies, acting, &one), Side::of(bodies, acting, &two), dt);
-            let may = pairs.may();
+            let near = pairs.may();
+            if near.greatest() < 0.0 {
+                continue;
+            }
+            let may = near.min(-pairs.stay_apart(dt));
+            apart.extend((0..keys.len()).filter(|k| near.0[*k] > may.0[*k]).map(|k| keys[k]));
             if may.greatest() < 0.0 {
                 continue;
             }

@@ -1,6 +1,6 @@
 //! How bodies in contact go on over a sub-step: what acts on them, and where that takes them.
 
-use super::rows::{IDLE, INVERSE_MASS, INVERSE_MOMENT, Rows, SPIN, TURN, VX, VZ, X, Z};
+use super::rows::{INVERSE_MASS, INVERSE_MOMENT, Row, Rows, SPIN, TURN, VX, VZ, X, Z};
 use super::touch::Touch;
 use crate::area::Vec2;
 use crate::flight::{Path, Pull, turned};
@@ -37,7 +37,7 @@ impl Flier {
     }
 
     /// What contact changed of its motion.
-    fn changed(&self, row: &[f64; LANES]) -> [f64; 3] {
+    pub(super) fn changed(&self, row: &[f64; LANES]) -> [f64; 3] {
         [row[VX] - self.free[0], row[VZ] - self.free[1], row[SPIN] - self.free[2]]
     }
 
@@ -56,6 +56,8 @@ pub(super) struct Fliers {
     /// How much of the sub-step each row has used up in impacts \[s\], and which have any.
     pub(super) spent: Vec<f64>,
     pub(super) spenders: Vec<u32>,
+    /// The last round of impacts that changed each row's motion.
+    pub(super) stirred: Vec<u32>,
     coefficients: Option<(Flight, Flight)>,
 }
 
@@ -67,6 +69,8 @@ impl Fliers {
         self.spent.clear();
         self.spent.resize(rows.rows.len(), 0.0);
         self.spenders.clear();
+        self.stirred.clear();
+        self.stirred.resize(rows.rows.len(), 0);
         self.carry(rows, (touches, of_touch), times);
     }
 
@@ -104,12 +108,12 @@ impl Fliers {
 
     /// Whether contact has made more of the motions than it can: it takes energy, but for what moving fixed bodies give.
     pub(super) fn gained(&self, rows: &Rows, reach: f64) -> bool {
-        let fixed = &rows.rows[IDLE + rows.mobile.len()..];
+        let fixed = rows.of_fixed();
         let square = |row: &[f64]| row[VX] * row[VX] + row[VZ] * row[VZ];
         let driven =
             fixed.iter().map(|row| square(&row.0) + row.0[SPIN] * row.0[SPIN] * reach * reach).fold(0.0, f64::max);
         let (mut free, mut now, mut fastest_free, mut fastest, mut given) = (0.0, 0.0, 0.0_f64, 0.0_f64, 0.0);
-        for (row, flier) in rows.rows[IDLE..].iter().zip(&self.fliers) {
+        for (row, flier) in rows.of_mobile().iter().zip(&self.fliers) {
             let (row, [vx, vz, spin]) = (&row.0, flier.free);
             let ((mass, moment), came) = ((1.0 / row[INVERSE_MASS], 1.0 / row[INVERSE_MOMENT]), vx * vx + vz * vz);
             free += mass * came + moment * spin * spin;
@@ -123,22 +127,21 @@ impl Fliers {
 
     /// Nothing that forces do in the time brings a body anywhere: all stand where they are.
     pub(super) fn stay(&mut self, rows: &Rows, time: f64) {
-        for (row, flier) in rows.rows[IDLE..].iter().zip(&mut self.fliers) {
+        for (row, flier) in rows.of_mobile().iter().zip(&mut self.fliers) {
             flier.way = flier.changed(&row.0).map(|changed| -(0.5 * time) * changed);
         }
     }
 
     /// The motions of bodies on which no contact pushes.
     pub(super) fn let_go(&self, rows: &mut Rows) {
-        for (row, flier) in rows.rows[IDLE..].iter_mut().zip(&self.fliers) {
+        for (row, flier) in rows.of_mobile_mut().iter_mut().zip(&self.fliers) {
             [row.0[VX], row.0[VZ], row.0[SPIN]] = flier.free;
         }
     }
 
     /// The motions of bodies on which contacts push as they are now said to.
     pub(super) fn renew(&self, rows: &mut Rows) {
-        for (k, flier) in self.fliers.iter().enumerate() {
-            let row = &mut rows.rows[IDLE + k].0;
+        for (flier, Row(row)) in self.fliers.iter().zip(rows.of_mobile_mut()) {
             for (at, q) in [VX, VZ, SPIN].into_iter().enumerate() {
                 row[q] = flier.free[at] + flier.carried[at];
             }
@@ -147,38 +150,54 @@ impl Fliers {
 
     /// A sub-step begins: gravity, drag and pushes act.
     pub(super) fn set_out(&mut self, rows: &mut Rows, pulls: &[Pull], h: f64) {
-        for (k, flier) in self.fliers.iter_mut().enumerate() {
-            let row = &mut rows.rows[IDLE + k].0;
-            flier.start = [row[VX], row[VZ], row[SPIN]];
-            let spent = self.spent[IDLE + k];
-            let (v, omega) = (Vec2::new(row[VX], row[VZ]), row[SPIN]);
-            match &self.coefficients {
-                None => {
-                    flier.free = flier.start;
-                    flier.way = flier.start.map(|v| v * (h - spent));
-                }
-                Some((linear, angular)) => {
-                    let pull = pulls[rows.mobile[k] as usize];
-                    let (linear, angular) = if spent == 0.0 {
-                        (*linear, *angular)
-                    } else {
-                        (Flight::new(pull.drag.0, h - spent), Flight::new(pull.drag.1, h - spent))
-                    };
-                    let after = v * linear.keep + pull.a * linear.reach;
-                    let way = v * linear.reach + pull.a * linear.fall;
-                    flier.free = [after.x, after.y, omega * angular.keep + pull.alpha * angular.reach];
-                    flier.way = [way.x, way.y, omega * angular.reach + pull.alpha * angular.fall];
-                }
+        for k in 0..self.fliers.len() {
+            self.set_out_one(k, rows, pulls, h);
+        }
+    }
+
+    #[inline]
+    fn set_out_one(&mut self, k: usize, rows: &mut Rows, pulls: &[Pull], h: f64) {
+        let at = rows.first() + k;
+        let (flier, row, spent) = (&mut self.fliers[k], &mut rows.rows[at].0, self.spent[at]);
+        flier.start = [row[VX], row[VZ], row[SPIN]];
+        let (v, omega) = (Vec2::new(row[VX], row[VZ]), row[SPIN]);
+        match &self.coefficients {
+            None => {
+                flier.free = flier.start;
+                flier.way = flier.start.map(|v| v * (h - spent));
             }
-            (row[VX], row[VZ], row[SPIN]) = (flier.free[0], flier.free[1], flier.free[2]);
+            Some((linear, angular)) => {
+                let pull = pulls[rows.mobile[k] as usize];
+                let (linear, angular) = if spent == 0.0 {
+                    (*linear, *angular)
+                } else {
+                    (Flight::new(pull.drag.0, h - spent), Flight::new(pull.drag.1, h - spent))
+                };
+                let after = v * linear.keep + pull.a * linear.reach;
+                let way = v * linear.reach + pull.a * linear.fall;
+                flier.free = [after.x, after.y, omega * angular.keep + pull.alpha * angular.reach];
+                flier.way = [way.x, way.y, omega * angular.reach + pull.alpha * angular.fall];
+            }
+        }
+        (row[VX], row[VZ], row[SPIN]) = (flier.free[0], flier.free[1], flier.free[2]);
+    }
+
+    /// A body has been given a row, the last; in the midst of a sub-step where that has set out already.
+    pub(super) fn join(&mut self, rows: &mut Rows, under_way: Option<(&[Pull], f64)>) {
+        self.fliers.push(Flier::default());
+        self.spent.push(0.0);
+        self.stirred.push(0);
+        if let Some((pulls, h)) = under_way {
+            self.set_out_one(self.fliers.len() - 1, rows, pulls, h);
         }
     }
 
     /// The sub-step ends: bodies have come where their motions took them.
     pub(super) fn arrive(&mut self, rows: &mut Rows, pulls: &[Pull], h: f64) {
+        let first = rows.first();
         for (k, flier) in self.fliers.iter_mut().enumerate() {
-            let row = &mut rows.rows[IDLE + k].0;
-            let left = h - self.spent[IDLE + k];
+            let row = &mut rows.rows[first + k].0;
+            let left = h - self.spent[first + k];
             let by_force = flier.is_forced(row, pulls.get(rows.mobile[k] as usize), h);
             let goes = flier.goes(row, left, by_force);
             flier.carried = flier.changed(row);
@@ -186,12 +205,8 @@ impl Fliers {
                 row[d] += goes[k];
             }
         }
-        let fixed = IDLE + rows.mobile.len();
-        for (row, spent) in rows.rows[fixed..].iter_mut().zip(&self.spent[fixed..]) {
-            let row = &mut row.0;
-            for (d, v) in [(X, VX), (Z, VZ), (TURN, SPIN)] {
-                row[d] += row[v] * (h - spent);
-            }
+        for row in rows.of_fixed_mut() {
+            *row = row.after(h);
         }
         for row in self.spenders.drain(..) {
             self.spent[row as usize] = 0.0;
@@ -205,8 +220,7 @@ impl Fliers {
     }
 
     /// How a row's body flies from where it stands now in the sub-step.
-    pub(super) fn path(rows: &Rows, row: u32, frame: &Frame, pull: Pull) -> Path {
-        let row = &rows.rows[row as usize];
+    pub(super) fn path(row: &Row, frame: &Frame, pull: Pull) -> Path {
         Path { frame: turned(frame, frame.o + row.place(), row.0[TURN]), motion: row.motion(), pull }
     }
 
@@ -215,12 +229,7 @@ impl Fliers {
         if time == 0.0 {
             return;
         }
-        let change = path.change(time);
-        let r = &mut rows.rows[row as usize];
-        r.0[X] += change.shift.x;
-        r.0[Z] += change.shift.y;
-        r.0[TURN] += change.turn;
-        r.set_motion(change.motion);
+        rows.rows[row as usize].come(&path.change(time));
         if self.spent[row as usize] == 0.0 {
             self.spenders.push(row);
         }

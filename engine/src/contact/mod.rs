@@ -4,13 +4,15 @@
 //! |---|---|
 //! | who may touch within the step, and where | [`Contacts::find`] |
 //! | bodies and touches laid out for the solver | [`Contacts::lay_out`], [`rows`], [`blocks`] |
-//! | sub-step: impacts of bodies that touch no other | [`strike`] |
+//! | sub-step: impacts, of bodies that touch no other and in crowds | [`pairs`], [`strike`] |
+//! | what an impact or a push sets against others that were apart | [`wake`] |
 //! | sub-step: what acts on bodies over it | [`Fliers::set_out`](flying::Fliers::set_out) |
-//! | sub-step: pushes and friction at every touch | [`sweep`] |
+//! | sub-step: pushes and friction at every touch | [`solve`], [`sweep`], [`rest`] |
 //! | sub-step: bodies go on | [`Fliers::arrive`](flying::Fliers::arrive) |
 //! | the step ends: bodies take their places, touches remember | [`Contacts::settle`] |
 //!
-//! Bodies that nothing is near fly on exactly, in one go. A scene without contacts has no sub-steps.
+//! A scene that stands still is taken as one sub-step ([`stand`]). Bodies that nothing is near fly on exactly, in one go. A scene
+//! without contacts has no sub-steps.
 
 mod abreast;
 mod blocks;
@@ -20,6 +22,7 @@ mod flying;
 mod loads;
 mod look;
 mod meeting;
+mod pairs;
 #[cfg(test)]
 mod plain;
 mod points;
@@ -27,11 +30,13 @@ mod rest;
 mod rows;
 mod search;
 mod settle;
+mod solve;
 mod stand;
 mod strike;
 mod sweep;
 mod swept;
 mod touch;
+mod wake;
 mod weights;
 
 use crate::advance::advance_alone;
@@ -44,44 +49,19 @@ use crate::width::Width;
 use crate::world::World;
 use blocks::Blocks;
 use flying::Fliers;
-use look::{Look, Warm};
-use rest::{Effort, Rest, Settled};
+use pairs::Pairs;
+use rest::Rest;
 use rows::Rows;
 use search::Search;
-use sweep::{Part, Sweep};
 use touch::Touch;
+use wake::Apart;
 
 pub use loads::Load;
 
 /// Overlaps found at the start of a step are let go at this rate \[1/s\]: a fifth of them in a sixtieth of a second.
 const RECOVERY: f64 = 12.0;
 
-/// Sweeps in a sub-step, to and fro by turns: so many that about as many touches are solved, within limits.
-const SWEPT: usize = 16_000;
-const LEAST_SWEEPS: usize = 2;
-const MOST_SWEEPS: usize = 16;
-
-/// Sweeps where the pushes of the sub-step before were no help and all begins at nothing.
-const FRESH_SWEEPS: usize = 8;
-
-/// A scene in which no body is faster than this many times what gravity does in a sub-step is quiet: its contacts push on from
-/// where its bodies were, for they hardly move.
-const QUIET: f64 = 16.0;
-
-/// A scene in which no body is faster than this many times that stands still, or is about to: worth being settled to the end.
-const STILL: f64 = 2.0;
-
-/// Rounds to settle what stands still, in a sub-step at most; after the first few the weights are guessed.
-const PATIENCE: u32 = 500;
-const FIRST: u32 = 24;
-
-/// Weights are guessed where more than this share of what gravity does is not borne yet.
-const UNBALANCED: f64 = 1e-2;
-
-/// Touches to improve in a sub-step where little is to be improved.
-const BUDGET: u32 = 8_000;
-
-/// With so many touches or fewer they are found anew in every sub-step, for the sake of exactness.
+/// With so many pairs that are near or fewer they are found anew in every sub-step, for the sake of exactness.
 const A_FEW: usize = 128;
 
 /// Points closer than this share of the smaller rectangle touch.
@@ -99,6 +79,11 @@ pub(crate) struct Contacts {
     before: Vec<Touch>,
     /// Pairs of rectangles that may meet within the step.
     search: Search,
+    /// Pairs that are near and stay apart, as far as can be told when the step begins.
+    apart: Apart,
+    /// The part of the step that is being solved, and how much of it is over \[s\].
+    dt: f64,
+    gone: f64,
     /// What acts on each body over the step.
     pulls: Vec<Pull>,
     rows: Rows,
@@ -108,12 +93,16 @@ pub(crate) struct Contacts {
     rest: Rest,
     /// Rounds to be spent upon what stands still: fewer where they were in vain.
     patience: u32,
-    /// Touches of bodies that touch no other.
+    /// Touches of bodies that touch no other: those left to impacts, and those that are not.
+    pairs: Pairs,
     lonely: Vec<u32>,
-    /// Touches with restitution among the others.
+    /// Touches with restitution among the others; and how many rounds of impacts there have been in the part of the step.
     crowd: Vec<u32>,
+    round: u32,
     /// Touches of which it is known that they do not meet within the sub-step.
     clear: Vec<u32>,
+    /// How many touches there were when the part of the step began; those that join it come after them.
+    found: usize,
     /// Whether all stands and nothing has been done since: a step changes nothing.
     asleep: bool,
     /// How far a fixed body reaches from its centre at most \[m\].
@@ -135,16 +124,22 @@ impl Contacts {
             touches: Vec::new(),
             before: Vec::new(),
             search: Search::default(),
+            apart: Apart::default(),
+            dt: 0.0,
+            gone: 0.0,
             pulls: Vec::new(),
             rows: Rows::default(),
             of_touch: Vec::new(),
             blocks: Blocks::default(),
             fliers: Fliers::default(),
             rest: Rest::default(),
-            patience: PATIENCE,
+            patience: solve::PATIENCE,
+            pairs: Pairs::default(),
             lonely: Vec::new(),
             crowd: Vec::new(),
+            round: 0,
             clear: Vec::new(),
+            found: 0,
             asleep: false,
             reach: (0..bodies.len())
                 .filter(|body| !bodies.is_mobile(*body))
@@ -200,7 +195,8 @@ impl World {
             let drag = (!contacts.pulls.is_empty()).then(|| self.plan.flight.forces().1);
             contacts.fliers.pace(drag, h);
             contacts.fliers.begin(&contacts.rows, (&contacts.touches, &contacts.of_touch), 1.0);
-            for _ in 0..substeps {
+            for k in 0..substeps {
+                contacts.gone = f64::from(k) * h;
                 contacts.substep(self, h);
             }
             contacts.part_overlaps();
@@ -230,7 +226,7 @@ impl World {
     /// Bodies that nothing is near.
     fn fly_alone(&mut self, contacts: &Contacts, dt: f64) {
         let World { plan, bodies, movers, work, .. } = self;
-        let touched = |body: u32| !contacts.touches.is_empty() && contacts.rows.has(body);
+        let touched = |body: u32| !contacts.touches.is_empty() && contacts.rows.of(body).is_some();
         let lost = advance_alone(bodies, movers, plan.flight, dt, &contacts.pulls, touched, work);
         if let Some(body) = lost {
             self.report_fault(body);
@@ -241,7 +237,7 @@ impl World {
 impl Contacts {
     /// In how many parts the step is solved.
     fn parts(&self) -> u32 {
-        let few = (1..=A_FEW).contains(&self.touches.len());
+        let few = (1..=A_FEW).contains(&(self.touches.len() + self.apart.pairs().len()));
         if few { self.plan.substeps } else { 1 }
     }
 
@@ -250,107 +246,41 @@ impl Contacts {
         if self.touches.is_empty() {
             return;
         }
-        self.rows.fill(&world.bodies, &world.movers.mobile, &self.touches, &mut self.of_touch);
+        self.link_apart(world.bodies.len());
+        let fixed: Vec<u32> = self.fixed_apart(world).collect();
+        self.rows.fill(&world.bodies, &self.touches, fixed.into_iter(), &mut self.of_touch);
+        (self.dt, self.gone) = (dt, 0.0);
         self.keep = libm::exp(-RECOVERY * dt);
-        self.blocks.fill(&self.touches, &self.of_touch, &self.rows, self.keep, self.band);
+        self.found = self.touches.len();
         self.lonely.clear();
+        self.pairs.clear();
+        self.round = 0;
         self.crowd.clear();
-        for (k, (a, b)) in self.of_touch.iter().enumerate() {
-            let alone = |row: u32| self.rows.mobile_of(row).is_none_or(|at| self.rows.degree[at] == 1);
-            if alone(*a) && alone(*b) {
-                self.lonely.push(k as u32);
+        for k in 0..self.found {
+            if self.is_lonely(k) {
+                if self.is_left_to_impacts(k) {
+                    (self.touches[k].push, self.touches[k].grip) = ([0.0; 2], 0.0);
+                    self.pairs.push(k);
+                } else {
+                    self.lonely.push(k as u32);
+                }
             } else if self.touches[k].surface.restitution > 0.0 {
                 self.crowd.push(k as u32);
             }
         }
+        let Contacts { blocks, touches, of_touch, pairs, rows, keep, band, .. } = self;
+        blocks.fill((touches, of_touch), pairs.left_out(), rows, (*keep, *band));
     }
 
     fn substep(&mut self, world: &mut World, h: f64) {
+        self.strike_pairs(world, h);
         self.strike(world, h);
-        let pulled = world.plan.gravity().norm() * h;
-        self.look(h, flying::FORCEFUL * pulled);
-        self.leave_clear();
-        self.fliers.set_out(&mut self.rows, &self.pulls, h);
-        let fastest = self.fliers.fastest();
-        let quiet = fastest <= QUIET * pulled;
-        if quiet {
-            self.fliers.renew(&mut self.rows);
+        if self.blocks.count == 0 {
+            self.fliers.set_out(&mut self.rows, &self.pulls, h);
         } else {
-            self.width.run(Warm { rows: &mut self.rows.rows, blocks: &self.blocks.blocks });
-        }
-        let still = fastest <= STILL * pulled && pulled > 0.0;
-        if still {
-            self.settle_touches(world, h, pulled, fastest);
-        } else {
-            self.sweep_touches(world, (SWEPT / self.touches.len()).clamp(LEAST_SWEEPS, MOST_SWEEPS));
-            let most = self.few();
-            self.settle_for(world, Effort { pulled, most });
-        }
-        // A jam has no solution: pushes grow without end, and do harm once it gives way.
-        if self.fliers.gained(&self.rows, self.reach) {
-            self.blocks.forget_pushes();
-            self.fliers.let_go(&mut self.rows);
-            self.sweep_touches(world, FRESH_SWEEPS);
+            self.solve(world, h);
         }
         self.book_substep(world, h);
         self.fliers.arrive(&mut self.rows, &self.pulls, h);
-    }
-
-    /// Improves all touches of a scene that stands still together, for as long as it is worth it.
-    fn settle_touches(&mut self, world: &mut World, h: f64, pulled: f64, fastest: f64) {
-        let most = if fastest == 0.0 { PATIENCE } else { self.patience.max(self.few()) };
-        let Settled { left, enough, .. } = self.settle_for(world, Effort { pulled, most: FIRST.min(most) });
-        if !enough {
-            if left > UNBALANCED * pulled {
-                let pull = world.plan.gravity() * h;
-                weights::guess(&mut self.touches, &self.of_touch, &self.rows, &world.bodies, pull, self.band);
-                self.fliers.carry(&self.rows, (&self.touches, &self.of_touch), 1.0);
-                self.fliers.renew(&mut self.rows);
-                self.blocks.renew(&self.touches);
-            }
-            let more = self.settle_for(world, Effort { pulled, most });
-            self.patience =
-                if more.enough { (2 * self.patience).min(PATIENCE) } else { (self.patience / 2).max(FIRST) };
-        }
-    }
-
-    /// How many rounds are always worth it.
-    fn few(&self) -> u32 {
-        (BUDGET / self.touches.len() as u32).min(PATIENCE)
-    }
-
-    fn settle_for(&mut self, world: &mut World, effort: Effort) -> Settled {
-        let (rows, blocks) = (&mut self.rows, &mut self.blocks.blocks);
-        let settled = self.rest.settle(rows, blocks, self.width, effort);
-        world.work.touches_solved += u64::from(settled.rounds) * self.touches.len() as u64;
-        settled
-    }
-
-    fn sweep_touches(&mut self, world: &mut World, sweeps: usize) {
-        for sweep in 0..sweeps {
-            self.sweep(sweep % 2 == 1);
-        }
-        world.work.touches_solved += (sweeps * self.touches.len()) as u64;
-    }
-
-    /// Bodies still deeper in each other than they may be by now are moved apart, once round.
-    fn part_overlaps(&mut self) {
-        let (rows, blocks) = (&mut self.rows.rows[..], &self.blocks.blocks[..]);
-        self.width.run(Part { rows, blocks, band: self.band });
-    }
-
-    /// What every point asks for in the sub-step.
-    fn look(&mut self, h: f64, pulled: f64) {
-        let (rows, blocks) = (&self.rows.rows[..], &mut self.blocks.blocks[..]);
-        self.width.run(Look { rows, blocks, h, band: self.band, pulled });
-    }
-
-    fn sweep(&mut self, back: bool) {
-        let (rows, blocks, band) = (&mut self.rows.rows[..], &mut self.blocks.blocks[..], self.band);
-        if self.plan.friction {
-            self.width.run(Sweep::<true> { rows, blocks, band, back });
-        } else {
-            self.width.run(Sweep::<false> { rows, blocks, band, back });
-        }
     }
 }

@@ -8,7 +8,8 @@ use crate::area::{Rect, Vec2};
 use crate::broad_phase::bounds::sweep;
 use crate::broad_phase::met::Bounds;
 use crate::detect::manifold::Placed;
-use crate::flight::Path;
+use crate::detect::overlap;
+use crate::flight::{Path, Pull};
 use crate::plan::BroadPhasePlan;
 use crate::scene::{Body, BroadPhaseChoice, ExchangeRule, Kind, Part, Scene, Settings};
 use crate::width::Width;
@@ -99,10 +100,27 @@ fn crowd(seed: u64) -> Scene {
     Scene { settings, bodies, ..Scene::default() }
 }
 
+/// Two rectangles do not touch within the time, fly as they may: under what pulls at each, or held against it.
+fn assert_stay_apart(world: &World, contacts: &Contacts, pair: (u32, u32), dt: f64) {
+    let all: Vec<Placed> = (0..world.len()).flat_map(|body| Placed::all(&world.bodies, body)).collect();
+    let pair = [all[pair.0 as usize], all[pair.1 as usize]];
+    for held in 0..4 {
+        let paths = [0, 1].map(|side| {
+            let path = Path::of(&world.bodies, &contacts.pulls, pair[side].body);
+            if held >> side & 1 == 1 { Path { pull: Pull::NONE, ..path } } else { path }
+        });
+        for k in 0..=16 {
+            let frames = paths.map(|path| path.after(f64::from(k) / 16.0 * dt).frame);
+            let depth = overlap::depth(&frames[0], pair[0].rect, &frames[1], pair[1].rect);
+            assert!(depth <= 1e-9, "{:?} and {:?} are {depth:e} m deep, {k}/16 on", pair[0].index, pair[1].index);
+        }
+    }
+}
+
 /// At any width, by grids or by all pairs, through the steps of many crowds.
 #[test]
 fn touches_are_found_as_by_the_plain_way() {
-    let (mut count, mut deep) = (0, 0);
+    let (mut count, mut deep, mut left) = (0, 0, 0);
     for seed in 0..30 {
         let mut scene = crowd(seed);
         scene.settings.broad_phase = BroadPhaseChoice::Strips;
@@ -117,7 +135,14 @@ fn touches_are_found_as_by_the_plain_way() {
                     let (mut contacts, mut world) = (contacts.clone(), world.clone());
                     (contacts.width, world.plan.broad_phase) = (width, plan);
                     contacts.find(&mut world, dt);
+                    let apart = contacts.apart.pairs();
+                    let is_apart = |touch: &&Touch| apart.binary_search(&touch.rects).is_ok();
+                    let plain: Vec<Touch> = plain.iter().filter(|touch| !is_apart(touch)).copied().collect();
                     assert_eq!(contacts.touches, plain, "scene {seed}, step {step}, {width:?}, {plan}");
+                    if width == Width::best() && plan != BroadPhasePlan::AllPairs {
+                        apart.iter().for_each(|pair| assert_stay_apart(&world, &contacts, *pair, dt));
+                        left += apart.len();
+                    }
                 }
             }
             count += plain.len();
@@ -126,4 +151,5 @@ fn touches_are_found_as_by_the_plain_way() {
         }
     }
     assert!(count > 20_000 && deep > 500, "{count} touches, {deep} of them deep: crowds in which little is found");
+    assert!(left > 5_000, "{left} pairs that stay apart: crowds in which all touch");
 }

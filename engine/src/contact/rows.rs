@@ -3,6 +3,7 @@
 use super::touch::Touch;
 use crate::area::Vec2;
 use crate::bodies::{Bodies, Motion};
+use crate::flight::Change;
 use crate::lanes::LANES;
 
 /// One body in contact: how it moves, how far it has come since the step began, and how easily it is moved.
@@ -18,6 +19,22 @@ impl Row {
 
     pub(super) fn motion(&self) -> Motion {
         Motion { v: Vec2::new(self.0[VX], self.0[VZ]), omega: self.0[SPIN] }
+    }
+
+    /// The same a time later, if nothing changes its motion.
+    pub(super) fn after(mut self, time: f64) -> Row {
+        for (q, v) in [(X, VX), (Z, VZ), (TURN, SPIN)] {
+            self.0[q] += self.0[v] * time;
+        }
+        self
+    }
+
+    /// The body has flown.
+    pub(super) fn come(&mut self, change: &Change) {
+        self.0[X] += change.shift.x;
+        self.0[Z] += change.shift.y;
+        self.0[TURN] += change.turn;
+        self.set_motion(change.motion);
     }
 
     pub(super) fn set_motion(&mut self, Motion { v, omega }: Motion) {
@@ -38,13 +55,15 @@ pub(super) const INVERSE_MOMENT: usize = 7;
 /// Rows that belong to nobody: what stands in the lanes of a block that are not used.
 pub(super) const IDLE: usize = 2 * LANES;
 
-/// The rows of all bodies in contact: idle ones, mobile bodies in order of creation, and for every touch with a fixed
-/// body one of its own, so that no two touches of a block share a row.
+/// The rows of all bodies in contact: idle ones, fixed bodies, then mobile ones; each in order of creation, but for those that
+/// join while the step is solved, which come last.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Rows {
     pub(super) rows: Vec<Row>,
-    /// The mobile bodies, each with the row `IDLE + k`.
+    /// The mobile bodies, in the order of their rows.
     pub(super) mobile: Vec<u32>,
+    /// How many fixed bodies have a row.
+    fixed: usize,
     /// The row of each body; `NONE` of those without.
     row_of: Vec<u32>,
     /// How many touches each mobile body has, in the order of `mobile`.
@@ -54,51 +73,99 @@ pub(super) struct Rows {
 const NONE: u32 = u32::MAX;
 
 impl Rows {
-    /// Makes rows for the bodies of these touches; gives the rows of each touch.
-    pub(super) fn fill(&mut self, bodies: &Bodies, mobile: &[u32], touches: &[Touch], of_touch: &mut Vec<(u32, u32)>) {
+    /// Makes rows for the bodies of these touches, and for fixed bodies of pairs that may touch yet; gives the rows of each touch.
+    pub(super) fn fill(
+        &mut self,
+        bodies: &Bodies,
+        touches: &[Touch],
+        fixed: impl Iterator<Item = u32>,
+        of_touch: &mut Vec<(u32, u32)>,
+    ) {
         self.row_of.clear();
         self.row_of.resize(bodies.len(), NONE);
+        for body in touches.iter().flat_map(|touch| [touch.a, touch.b]).chain(fixed) {
+            self.row_of[body as usize] = 0;
+        }
         self.rows.clear();
         self.rows.resize(IDLE, Row([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0]));
         self.mobile.clear();
-        for touch in touches {
-            self.row_of[touch.a as usize] = 0;
-            self.row_of[touch.b as usize] = 0;
-        }
-        for &body in mobile {
-            if self.row_of[body as usize] != NONE {
-                self.row_of[body as usize] = self.rows.len() as u32;
-                self.mobile.push(body);
-                self.rows.push(row(bodies, body as usize, true));
+        self.degree.clear();
+        let marked = |row_of: &[u32], body: usize, mobile| row_of[body] != NONE && bodies.is_mobile(body) == mobile;
+        for body in 0..bodies.len() {
+            if marked(&self.row_of, body, false) {
+                self.row_of[body] = self.rows.len() as u32;
+                self.rows.push(row(bodies, body, false));
             }
         }
-        self.degree.clear();
-        self.degree.resize(self.mobile.len(), 0);
-        of_touch.clear();
-        for touch in touches {
-            let pair = [touch.a as usize, touch.b as usize].map(|body| {
-                if bodies.is_mobile(body) {
-                    let at = self.row_of[body];
-                    self.degree[at as usize - IDLE] += 1;
-                    return at;
-                }
-                self.rows.push(row(bodies, body, false));
-                self.rows.len() as u32 - 1
-            });
-            of_touch.push((pair[0], pair[1]));
+        self.fixed = self.rows.len() - IDLE;
+        for body in 0..bodies.len() {
+            if marked(&self.row_of, body, true) {
+                self.add(bodies, body);
+            }
         }
+        of_touch.clear();
+        of_touch.extend(touches.iter().map(|touch| self.count_touch(touch)));
+    }
+
+    /// A row for a mobile body that has none, after all others; it has come nowhere yet.
+    pub(super) fn add(&mut self, bodies: &Bodies, body: usize) -> &mut Row {
+        self.row_of[body] = self.rows.len() as u32;
+        self.mobile.push(body as u32);
+        self.degree.push(0);
+        self.rows.push(row(bodies, body, true));
+        self.rows.last_mut().expect("it was pushed just now")
+    }
+
+    /// The rows of a touch, which counts from now on.
+    pub(super) fn count_touch(&mut self, touch: &Touch) -> (u32, u32) {
+        let rows = [touch.a, touch.b].map(|body| self.row_of[body as usize]);
+        for row in rows {
+            if let Some(at) = self.mobile_of(row) {
+                self.degree[at] += 1;
+            }
+        }
+        (rows[0], rows[1])
+    }
+
+    /// Where the rows of mobile bodies begin.
+    pub(super) fn first(&self) -> usize {
+        IDLE + self.fixed
+    }
+
+    /// The rows of mobile bodies, in the order of `mobile`.
+    pub(super) fn of_mobile(&self) -> &[Row] {
+        &self.rows[IDLE + self.fixed..]
+    }
+
+    pub(super) fn of_mobile_mut(&mut self) -> &mut [Row] {
+        let first = self.first();
+        &mut self.rows[first..]
+    }
+
+    /// The rows of fixed bodies.
+    pub(super) fn of_fixed(&self) -> &[Row] {
+        &self.rows[IDLE..IDLE + self.fixed]
+    }
+
+    pub(super) fn of_fixed_mut(&mut self) -> &mut [Row] {
+        let first = self.first();
+        &mut self.rows[IDLE..first]
+    }
+
+    /// The row of a body that has one.
+    pub(super) fn of(&self, body: u32) -> Option<u32> {
+        Some(self.row_of[body as usize]).filter(|row| *row != NONE)
     }
 
     /// Whether the row is a mobile body's; which of `mobile` it is.
     pub(super) fn mobile_of(&self, row: u32) -> Option<usize> {
-        let k = (row as usize).wrapping_sub(IDLE);
+        let k = (row as usize).wrapping_sub(self.first());
         (k < self.mobile.len()).then_some(k)
     }
 
     /// Whether no mobile body is faster than that, at its radius of gyration either.
     pub(super) fn are_slower_than(&self, limit: f64) -> bool {
-        let mobile = &self.rows[IDLE..IDLE + self.mobile.len()];
-        mobile.iter().all(|Row(row)| {
+        self.of_mobile().iter().all(|Row(row)| {
             let turning = row[SPIN] * row[SPIN] * row[INVERSE_MASS] / row[INVERSE_MOMENT];
             row[VX] * row[VX] + row[VZ] * row[VZ] + turning <= limit * limit
         })
@@ -106,13 +173,7 @@ impl Rows {
 
     /// All mobile bodies stop.
     pub(super) fn stop(&mut self) {
-        let count = self.mobile.len();
-        self.rows[IDLE..IDLE + count].iter_mut().for_each(|row| row.set_motion(Motion::default()));
-    }
-
-    /// Whether the body has a row.
-    pub(super) fn has(&self, body: u32) -> bool {
-        self.row_of[body as usize] != NONE
+        self.of_mobile_mut().iter_mut().for_each(|row| row.set_motion(Motion::default()));
     }
 }
 

@@ -55,6 +55,11 @@ impl Search {
         &self.near
     }
 
+    /// Whose a rectangle is.
+    pub(super) fn body_of(&self, rect: u32) -> usize {
+        self.owners[rect as usize].body()
+    }
+
     /// A rectangle where its body stands, and whose it is.
     #[inline(always)]
     pub(super) fn placed<'a>(&self, bodies: &'a Bodies, rect: u32) -> (Placed<'a>, Owner) {

@@ -1,7 +1,7 @@
 //! The step ends: bodies take their places, touches remember, hits are told.
 
 use super::Contacts;
-use super::rows::{IDLE, TURN};
+use super::rows::TURN;
 use crate::advance::is_finite;
 use crate::area::Vec2;
 use crate::exchange::PairKind;
@@ -15,7 +15,7 @@ impl Contacts {
             return;
         }
         for (k, &body) in self.rows.mobile.iter().enumerate() {
-            let (body, row) = (body as usize, &self.rows.rows[IDLE + k]);
+            let (body, row) = (body as usize, &self.rows.of_mobile()[k]);
             let bodies = &mut world.bodies;
             bodies.shift(body, row.place());
             if row.0[TURN] != 0.0 {
@@ -41,6 +41,9 @@ impl Contacts {
                 }
                 self.tell(world, k, (point, normal), 0.0);
             }
+        }
+        if self.touches.len() > self.found {
+            self.touches.sort_by_key(|touch| touch.rects);
         }
     }
 

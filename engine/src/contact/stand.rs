@@ -78,7 +78,7 @@ impl Contacts {
         self.fliers.begin(&self.rows, (&self.touches, &self.of_touch), times);
         self.blocks.scale_pushes(times);
         // What little still moves is to stop, not to come back.
-        self.look(dt, 0.0);
+        self.look(0, dt, 0.0);
         self.fliers.set_out(&mut self.rows, &self.pulls, dt);
         self.fliers.renew(&mut self.rows);
         let balanced = self.settle_for(world, effort).enough;

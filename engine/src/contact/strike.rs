@@ -7,7 +7,7 @@
 use super::Contacts;
 use super::flying::Fliers;
 use super::meeting::{Two, meeting, meeting_now};
-use super::rows::{SPIN, VX, VZ};
+use super::rows::{Row, SPIN, VX, VZ};
 use super::touch::Touch;
 use crate::detect::manifold::Manifold;
 use crate::flight::{Path, Pull};
@@ -15,7 +15,7 @@ use crate::frame::perp;
 use crate::world::World;
 
 /// Impacts of a pair in a sub-step at most, and rounds of impacts in a crowd; what comes more often is held.
-const MOST_STRIKES: u32 = 8;
+pub(super) const MOST_STRIKES: u32 = 8;
 const MOST_ROUNDS: u32 = 4;
 
 /// A bounce that would last for less than this many sub-steps is none: the contact lasts.
@@ -23,6 +23,13 @@ const SHORTEST: f64 = 1.0;
 
 /// A body rests that is no faster than this many times what gravity does in a sub-step.
 const RESTS: f64 = 2.0;
+
+/// A meeting to come: how the bodies fly to it, how long \[s\], and where they touch then.
+pub(super) struct Meets {
+    paths: [Path; 2],
+    pub(super) time: f64,
+    manifold: Manifold,
+}
 
 impl Contacts {
     /// Lets bodies that touch no other fly to their impacts within the sub-step, and exchange there.
@@ -33,7 +40,7 @@ impl Contacts {
             let mut left = h;
             let mut struck = false;
             for _ in 0..MOST_STRIKES {
-                if left <= 0.0 || self.touches[k].met || !self.may_strike(k, left, h) {
+                if left <= 0.0 || self.touches[k].met || !self.is_lonely(k) || !self.may_strike(k, left, h) {
                     break;
                 }
                 match self.strike_once(world, k, [true; 2], (left, h)) {
@@ -49,22 +56,57 @@ impl Contacts {
                 self.touches[k].met = met;
             }
         }
-        for _ in 0..MOST_ROUNDS {
+        self.join_crowd();
+        for round in 0..MOST_ROUNDS {
             let mut any = false;
+            self.round += 1;
             for at in 0..self.crowd.len() {
-                any |= self.strike_in_crowd(world, self.crowd[at] as usize, h);
+                let k = self.crowd[at] as usize;
+                if round == 0 || self.is_stirred(k) {
+                    any |= self.strike_in_crowd(world, k, h);
+                }
             }
             if !any {
                 break;
             }
+            self.join_crowd();
         }
+    }
+
+    /// Whether an impact has changed the motion of one of the bodies in this round or the one before.
+    fn is_stirred(&self, k: usize) -> bool {
+        let (a, b) = self.of_touch[k];
+        let last = |row: u32| self.fliers.stirred[row as usize];
+        last(a).max(last(b)) + 1 >= self.round
+    }
+
+    /// Touches whose bodies have come to touch others since are lonely no more.
+    fn join_crowd(&mut self) {
+        if self.touches.len() == self.found {
+            return;
+        }
+        self.join_pairs();
+        for at in 0..self.lonely.len() {
+            let k = self.lonely[at];
+            if !self.is_lonely(k as usize) && self.touches[k as usize].surface.restitution > 0.0 {
+                self.crowd.push(k);
+            }
+        }
+        let mut lonely = core::mem::take(&mut self.lonely);
+        lonely.retain(|k| self.is_lonely(*k as usize));
+        self.lonely = lonely;
+    }
+
+    /// Whether neither body touches any other.
+    pub(super) fn is_lonely(&self, k: usize) -> bool {
+        let (a, b) = self.of_touch[k];
+        [a, b].into_iter().all(|row| self.rows.mobile_of(row).is_none_or(|at| self.rows.degree[at] == 1))
     }
 
     /// Pairs of which it is known that they do not meet within the sub-step ask for nothing, unless they touch already.
     pub(super) fn leave_clear(&mut self) {
         for &k in &self.clear {
-            let (row_a, row_b) = self.of_touch[k as usize];
-            let (a, b) = (&self.rows.rows[row_a as usize].0, &self.rows.rows[row_b as usize].0);
+            let [Row(a), Row(b)] = &self.rows_now(k as usize);
             let touch = &self.touches[k as usize];
             for p in (0..2).filter(|p| touch.state(*p, a, b).0 > self.band) {
                 self.blocks.ask_nothing(k as usize, p);
@@ -107,8 +149,7 @@ impl Contacts {
             return [false; 2];
         }
         let touch = &self.touches[k];
-        let (row_a, row_b) = self.of_touch[k];
-        let (a, b) = (&self.rows.rows[row_a as usize].0, &self.rows.rows[row_b as usize].0);
+        let [Row(a), Row(b)] = &self.rows_now(k);
         let slips = touch.slips(a, b);
         [0, 1].map(|p| {
             let (gap, u) = touch.state(p, a, b);
@@ -118,7 +159,7 @@ impl Contacts {
     }
 
     /// After an impact the pair stands otherwise than when the step began: where it touches is found again.
-    fn look_again(&mut self, world: &World, k: usize) {
+    pub(super) fn look_again(&mut self, world: &World, k: usize) {
         let touch = self.touches[k];
         let (row_a, row_b) = self.of_touch[k];
         let [path_a, path_b] = self.paths(world, k, [false; 2]);
@@ -133,7 +174,7 @@ impl Contacts {
         if now.a != touch.a {
             return;
         }
-        let (a, b) = (&self.rows.rows[row_a as usize].0, &self.rows.rows[row_b as usize].0);
+        let [Row(a), Row(b)] = &self.rows_now(k);
         now.count_from(a, b);
         self.blocks.set(k, &now, (row_a, row_b), self.keep, self.band);
         self.touches[k] = now;
@@ -146,10 +187,9 @@ impl Contacts {
     }
 
     /// Whether the pair may come to touch within a time at a speed worth an impact.
-    fn may_strike(&self, k: usize, time: f64, h: f64) -> bool {
+    pub(super) fn may_strike(&self, k: usize, time: f64, h: f64) -> bool {
         let touch = &self.touches[k];
-        let (row_a, row_b) = self.of_touch[k];
-        let (a, b) = (&self.rows.rows[row_a as usize].0, &self.rows.rows[row_b as usize].0);
+        let [Row(a), Row(b)] = &self.rows_now(k);
         let pulled = self.pulled_together(touch);
         (0..touch.count as usize).any(|p| {
             let (gap, u) = touch.state(p, a, b);
@@ -175,31 +215,52 @@ impl Contacts {
     /// How the bodies of a touch fly on from where they are; those that do not fly only move on.
     fn paths(&self, world: &World, k: usize, flies: [bool; 2]) -> [Path; 2] {
         let touch = &self.touches[k];
-        let (row_a, row_b) = self.of_touch[k];
-        let pull = |body: u32, flies: bool| if flies { Pull::on(&self.pulls, body as usize) } else { Pull::NONE };
-        let of = |row, body: u32, flies| {
-            Fliers::path(&self.rows, row, &world.bodies.frame[body as usize], pull(body, flies))
+        let rows = self.rows_now(k);
+        let of = |side: usize, body: u32| {
+            let pull = if flies[side] { Pull::on(&self.pulls, body as usize) } else { Pull::NONE };
+            Fliers::path(&rows[side], &world.bodies.frame[body as usize], pull)
         };
-        [of(row_a, touch.a, flies[0]), of(row_b, touch.b, flies[1])]
+        [of(0, touch.a), of(1, touch.b)]
+    }
+
+    /// The rows of a touch as they are by now: a fixed body goes on as far into the sub-step as the other has flown ahead.
+    fn rows_now(&self, k: usize) -> [Row; 2] {
+        let (a, b) = self.of_touch[k];
+        let ahead = self.fliers.spent[a as usize].max(self.fliers.spent[b as usize]);
+        [a, b].map(|row| {
+            let fixed = self.rows.mobile_of(row).is_none();
+            let row = self.rows.rows[row as usize];
+            if fixed { row.after(ahead) } else { row }
+        })
     }
 
     /// One impact within a time; gives when. Those that fly are ahead of the sub-step then.
     fn strike_once(&mut self, world: &mut World, k: usize, flies: [bool; 2], (left, h): (f64, f64)) -> Option<f64> {
-        let touch = self.touches[k];
-        let paths = self.paths(world, k, flies);
-        let Some((time, manifold)) = meeting(world, &touch, &paths, left) else {
+        let Some(meets) = self.meets(world, k, flies, left) else {
             self.clear.push(k as u32);
             return None;
         };
+        self.strike_at(world, k, flies, &meets, h).then_some(meets.time)
+    }
+
+    /// When and how the pair of a touch meets within a time, as its bodies fly.
+    pub(super) fn meets(&self, world: &mut World, k: usize, flies: [bool; 2], left: f64) -> Option<Meets> {
+        let paths = self.paths(world, k, flies);
+        let (time, manifold) = meeting(world, &self.touches[k], &paths, left)?;
+        Some(Meets { paths, time, manifold })
+    }
+
+    /// The bodies that fly go on to where they meet, and exchange motion; whether anything approached.
+    pub(super) fn strike_at(&mut self, world: &mut World, k: usize, flies: [bool; 2], meets: &Meets, h: f64) -> bool {
         let (row_a, row_b) = self.of_touch[k];
-        for (row, (path, flies)) in [row_a, row_b].into_iter().zip(paths.iter().zip(flies)) {
-            if flies {
-                self.fliers.go_on(&mut self.rows, row, path, time);
-                self.book_ahead(world, row, time);
+        for (row, (path, flies)) in [row_a, row_b].into_iter().zip(meets.paths.iter().zip(flies)) {
+            if flies && self.rows.mobile_of(row).is_some() {
+                self.fliers.go_on(&mut self.rows, row, path, meets.time);
+                self.book_ahead(world, row, meets.time);
             }
         }
-        let moved = paths.map(|path| path.after(time));
-        self.exchange(world, k, (&manifold, &moved), h).then_some(time)
+        let moved = meets.paths.map(|path| path.after(meets.time));
+        self.exchange(world, k, (&meets.manifold, &moved), h)
     }
 
     /// Exchanges motion at a manifold of two bodies that stand and move so; whether anything approached.
@@ -219,11 +280,15 @@ impl Contacts {
         let act = self.act(world, self.of_touch[k], manifold);
         for ((row, body), (frame, surface)) in [row_a, row_b].into_iter().zip(pair).zip(stood) {
             self.rows.rows[row as usize].set_motion(world.bodies.motion[body]);
+            self.fliers.stirred[row as usize] = self.round;
             world.bodies.frame[body] = frame;
             world.bodies.surface[body] = surface;
         }
         let Some(act) = act else { return false };
         self.tell(world, k, (act.middle, act.normal), manifold.depth.max(0.0));
+        for body in pair {
+            self.wake_around(world, body, None);
+        }
         true
     }
 }

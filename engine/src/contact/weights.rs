@@ -5,7 +5,7 @@
 //! as many rounds as there are rows, squared. Friction and pushes from the side are left out: it is only a guess, to be
 //! improved upon.
 
-use super::rows::{IDLE, Rows};
+use super::rows::Rows;
 use super::touch::Touch;
 use crate::area::Vec2;
 use crate::bodies::Bodies;
@@ -57,7 +57,7 @@ pub(super) fn guess(
         .map(|body| Load { force: pull * bodies.inertia[*body as usize].mass, moment: 0.0 })
         .collect();
     for &k in &order {
-        let own = (IDLE + k) as u32;
+        let own = (rows.first() + k) as u32;
         let below = |other: u32| rows.mobile_of(other).is_none_or(|other| turn[other] > turn[k]);
         let mut points: Vec<(usize, usize, Vec2, f64)> = Vec::new();
         for &at in &of_body[k] {

@@ -86,6 +86,11 @@ impl Ledger {
         self.contact = contact;
     }
 
+    /// There are so many touches by now.
+    pub(crate) fn expect_touches(&mut self, touches: usize) {
+        self.contact.by_touch.resize(touches, Booked::default());
+    }
+
     /// A body has flown ahead of the others, and come so far from where it stands.
     pub(crate) fn fly_ahead(
         &mut self,

@@ -1,0 +1,155 @@
+//! A sub-step solved: pushes and friction at every touch that is laid out.
+
+use super::look::{Look, Warm};
+use super::rest::{Effort, Settled};
+use super::sweep::{Part, Sweep};
+use super::{Contacts, flying, weights};
+use crate::lanes::LANES;
+use crate::world::World;
+
+/// Sweeps in a sub-step, to and fro by turns: so many that about as many touches are solved, within limits.
+const SWEPT: usize = 16_000;
+const LEAST_SWEEPS: usize = 2;
+const MOST_SWEEPS: usize = 16;
+
+/// Sweeps where the pushes of the sub-step before were no help and all begins at nothing.
+const FRESH_SWEEPS: usize = 8;
+
+/// A scene in which no body is faster than this many times what gravity does in a sub-step is quiet: its contacts push on from
+/// where its bodies were, for they hardly move.
+const QUIET: f64 = 16.0;
+
+/// A scene in which no body is faster than this many times that stands still, or is about to: worth being settled to the end.
+const STILL: f64 = 2.0;
+
+/// Rounds to settle what stands still, in a sub-step at most; after the first few the weights are guessed.
+pub(super) const PATIENCE: u32 = 500;
+const FIRST: u32 = 24;
+
+/// Weights are guessed where more than this share of what gravity does is not borne yet.
+const UNBALANCED: f64 = 1e-2;
+
+/// Touches to improve in a sub-step where little is to be improved.
+const BUDGET: u32 = 8_000;
+
+/// How often in a sub-step pushes spread to what stayed apart.
+const MOST_SPREADS: usize = 4;
+
+impl Contacts {
+    /// Pushes and friction at all touches that are laid out.
+    pub(super) fn solve(&mut self, world: &mut World, h: f64) {
+        let pulled = world.plan.gravity().norm() * h;
+        self.look(0, h, flying::FORCEFUL * pulled);
+        self.leave_clear();
+        self.fliers.set_out(&mut self.rows, &self.pulls, h);
+        let fastest = self.fliers.fastest();
+        let quiet = fastest <= QUIET * pulled;
+        if quiet {
+            self.fliers.renew(&mut self.rows);
+        } else {
+            self.width.run(Warm { rows: &mut self.rows.rows, blocks: &self.blocks.blocks });
+        }
+        if fastest <= STILL * pulled && pulled > 0.0 {
+            self.settle_touches(world, h, pulled, fastest);
+        } else {
+            self.push_on(world, (h, pulled), LEAST_SWEEPS);
+        }
+        // A jam has no solution: pushes grow without end, and do harm once it gives way.
+        if self.fliers.gained(&self.rows, self.reach) {
+            self.begin_afresh();
+            self.push_on(world, (h, pulled), FRESH_SWEEPS);
+            if self.fliers.gained(&self.rows, self.reach) {
+                self.begin_afresh();
+                self.sweep_touches(world, FRESH_SWEEPS);
+            }
+        }
+    }
+
+    /// Improves all touches of a scene that moves, by so many sweeps at least.
+    fn push_on(&mut self, world: &mut World, (h, pulled): (f64, f64), least: usize) {
+        self.sweep_touches(world, (SWEPT / self.blocks.count).clamp(least, MOST_SWEEPS));
+        self.spread(world, h);
+        let most = self.few();
+        self.settle_for(world, Effort { pulled, most });
+    }
+
+    /// Nothing pushes any more.
+    fn begin_afresh(&mut self) {
+        self.blocks.forget_pushes();
+        self.fliers.let_go(&mut self.rows);
+    }
+
+    /// What has been pushed may now come to touch what stayed apart from it, which is pushed in turn.
+    fn spread(&mut self, world: &mut World, h: f64) {
+        for _ in 0..MOST_SPREADS {
+            let from = self.blocks.later();
+            if !self.wake_pushed(world, h) {
+                break;
+            }
+            self.look(from, h, 0.0);
+            for sweep in 0..LEAST_SWEEPS {
+                self.sweep(from, sweep % 2 == 1);
+            }
+            world.work.touches_solved += (LEAST_SWEEPS * (self.blocks.blocks.len() - from) * LANES) as u64;
+        }
+    }
+
+    /// Improves all touches of a scene that stands still together, for as long as it is worth it.
+    fn settle_touches(&mut self, world: &mut World, h: f64, pulled: f64, fastest: f64) {
+        let most = if fastest == 0.0 { PATIENCE } else { self.patience.max(self.few()) };
+        let Settled { left, enough, .. } = self.settle_for(world, Effort { pulled, most: FIRST.min(most) });
+        if !enough {
+            if left > UNBALANCED * pulled {
+                let pull = world.plan.gravity() * h;
+                weights::guess(&mut self.touches, &self.of_touch, &self.rows, &world.bodies, pull, self.band);
+                self.fliers.carry(&self.rows, (&self.touches, &self.of_touch), 1.0);
+                self.fliers.renew(&mut self.rows);
+                self.blocks.renew(&self.touches);
+            }
+            let more = self.settle_for(world, Effort { pulled, most });
+            self.patience =
+                if more.enough { (2 * self.patience).min(PATIENCE) } else { (self.patience / 2).max(FIRST) };
+        }
+    }
+
+    /// How many rounds are always worth it.
+    fn few(&self) -> u32 {
+        (BUDGET / self.blocks.count as u32).min(PATIENCE)
+    }
+
+    pub(super) fn settle_for(&mut self, world: &mut World, effort: Effort) -> Settled {
+        let (rows, blocks) = (&mut self.rows, &mut self.blocks.blocks);
+        let settled = self.rest.settle(rows, blocks, self.width, effort);
+        world.work.touches_solved += u64::from(settled.rounds) * self.blocks.count as u64;
+        settled
+    }
+
+    fn sweep_touches(&mut self, world: &mut World, sweeps: usize) {
+        for sweep in 0..sweeps {
+            self.sweep(0, sweep % 2 == 1);
+        }
+        world.work.touches_solved += (sweeps * self.blocks.count) as u64;
+    }
+
+    /// Bodies still deeper in each other than they may be by now are moved apart, once round.
+    pub(super) fn part_overlaps(&mut self) {
+        let (rows, blocks) = (&mut self.rows.rows[..], &self.blocks.blocks[..]);
+        self.width.run(Part { rows, blocks, band: self.band });
+    }
+
+    /// What every point asks for in the sub-step, from that block on.
+    pub(super) fn look(&mut self, from: usize, h: f64, pulled: f64) {
+        let (rows, blocks) = (&self.rows.rows[..], &mut self.blocks.blocks[from..]);
+        self.width.run(Look { rows, blocks, h, band: self.band, pulled });
+    }
+
+    /// A sweep over the blocks from that one on.
+    fn sweep(&mut self, from: usize, back: bool) {
+        let (rows, blocks, band) = (&mut self.rows.rows[..], &mut self.blocks.blocks[from..], self.band);
+        if self.plan.friction {
+            self.width.run(Sweep::<true> { rows, blocks, band, back });
+        } else {
+            self.width.run(Sweep::<false> { rows, blocks, band, back });
+        }
+    }
+}

@@ -1,0 +1,172 @@
+//! Pairs that are near and stay apart, unless something is done to one of their bodies.
+//!
+//! They are no touches and cost nothing in the sub-steps. When an impact or a push gives one of their bodies another motion than it
+//! had when the step began, its pairs are looked at again: those that may touch now join the touches, and a body that had no
+//! part in any gets a row, at the place to which it has flown by then.
+
+use super::Contacts;
+use super::flying::Fliers;
+use super::touch::Touch;
+use crate::area::Vec2;
+use crate::flight::{Path, Pull};
+use crate::world::World;
+
+/// What contacts change of a body's motion beyond holding it against gravity, as a share of what that does in a sub-step,
+/// before it matters to those it is near.
+const DEVIATES: f64 = 1e-6;
+
+/// Room when a pair is looked at again, as a share of the smaller half sizes.
+const ROOM: f64 = 0.02;
+
+const NONE: u32 = u32::MAX;
+
+/// The pairs of a part of a step that stay apart.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Apart {
+    /// By the indices of their rectangles, in order; and whether each has been woken.
+    pairs: Vec<(u32, u32)>,
+    woken: Vec<bool>,
+    /// The last pair of each body, and the one before of each pair's bodies, as twice its index, plus one on the second side.
+    last: Vec<u32>,
+    before: Vec<[u32; 2]>,
+}
+
+impl Apart {
+    /// No pairs yet.
+    pub(super) fn begin(&mut self) -> &mut Vec<(u32, u32)> {
+        self.pairs.clear();
+        &mut self.pairs
+    }
+
+    pub(super) fn pairs(&self) -> &[(u32, u32)] {
+        &self.pairs
+    }
+}
+
+impl Contacts {
+    /// Links every body to its pairs that stay apart.
+    pub(super) fn link_apart(&mut self, bodies: usize) {
+        let Contacts { apart, search, .. } = self;
+        apart.woken.clear();
+        apart.woken.resize(apart.pairs.len(), false);
+        apart.last.clear();
+        apart.last.resize(bodies, NONE);
+        apart.before.clear();
+        for (k, pair) in apart.pairs.iter().enumerate() {
+            let mut before = [NONE; 2];
+            for (side, rect) in [pair.0, pair.1].into_iter().enumerate() {
+                let last = &mut apart.last[search.body_of(rect)];
+                before[side] = core::mem::replace(last, (2 * k + side) as u32);
+            }
+            apart.before.push(before);
+        }
+    }
+
+    /// The fixed bodies among them.
+    pub(super) fn fixed_apart<'a>(&'a self, world: &'a World) -> impl Iterator<Item = u32> + use<'a> {
+        let rects = self.apart.pairs.iter().flat_map(|pair| [pair.0, pair.1]);
+        rects
+            .map(|rect| self.search.body_of(rect))
+            .filter(|body| !world.bodies.is_mobile(*body))
+            .map(|body| body as u32)
+    }
+
+    /// Wakes pairs of bodies that contacts have given another motion than they set out with; whether there were any.
+    pub(super) fn wake_pushed(&mut self, world: &mut World, h: f64) -> bool {
+        let touches = self.touches.len();
+        let gravity = world.plan.gravity();
+        let pulled = gravity.norm() * h;
+        for k in 0..self.rows.mobile.len() {
+            let body = self.rows.mobile[k] as usize;
+            if self.apart.last[body] == NONE || !self.deviates(world, k, (gravity, pulled)) {
+                continue;
+            }
+            self.wake_around(world, body, Some(h));
+        }
+        self.touches.len() > touches
+    }
+
+    /// Whether contacts have changed a mobile row's motion in the sub-step by more than holding it against gravity.
+    fn deviates(&self, world: &World, k: usize, (gravity, pulled): (Vec2, f64)) -> bool {
+        let [x, z, turned] = self.fliers.fliers[k].changed(&self.rows.of_mobile()[k].0);
+        let mut change = Vec2::new(x, z);
+        if pulled > 0.0 {
+            let up = -gravity / gravity.norm();
+            change -= up * change.dot(&up).clamp(0.0, pulled);
+        }
+        let reach = world.bodies.reach(self.rows.mobile[k] as usize);
+        change.norm().max(turned.abs() * reach) > DEVIATES * pulled
+    }
+
+    /// Looks again at the pairs of a body that has been given another motion.
+    pub(super) fn wake_around(&mut self, world: &mut World, body: usize, under_way: Option<f64>) {
+        let mut at = self.apart.last[body];
+        while at != NONE {
+            let (pair, side) = ((at / 2) as usize, (at % 2) as usize);
+            at = self.apart.before[pair][side];
+            if !self.apart.woken[pair] {
+                self.look_once_more(world, pair, under_way);
+            }
+        }
+    }
+
+    /// Makes a touch of a pair that may touch by now.
+    fn look_once_more(&mut self, world: &mut World, pair: usize, under_way: Option<f64>) {
+        let rects = [self.apart.pairs[pair].0, self.apart.pairs[pair].1];
+        let bodies = rects.map(|rect| self.search.body_of(rect));
+        let paths = bodies.map(|body| self.path_of(world, body));
+        let placed = [0, 1].map(|side| {
+            let mut placed = self.search.placed(&world.bodies, rects[side]).0;
+            placed.frame = &paths[side].frame;
+            placed
+        });
+        let left = self.dt - self.gone;
+        let (u, mut margin) = (paths[1].motion.v - paths[0].motion.v, 0.0);
+        for (path, placed) in paths.iter().zip(&placed) {
+            margin += path.motion.omega.abs() * placed.rect.far() + 0.5 * path.pull.a.norm() * left;
+        }
+        margin = (margin + u.norm()) * left + ROOM * (placed[0].rect.half().min() + placed[1].rect.half().min());
+        let stood = |body: usize| world.bodies.frame[body];
+        let Some(mut touch) = Touch::find(&world.bodies, (placed[0], placed[1]), margin, None, stood) else { return };
+        self.apart.woken[pair] = true;
+        for (body, path) in bodies.into_iter().zip(&paths) {
+            self.join(world, body, path, under_way);
+        }
+        let rows = self.rows.count_touch(&touch);
+        touch.count_from(&self.rows.rows[rows.0 as usize].0, &self.rows.rows[rows.1 as usize].0);
+        self.blocks.add(self.touches.len(), &touch, rows, (self.keep, self.band));
+        if touch.surface.restitution > 0.0 {
+            self.crowd.push(self.touches.len() as u32);
+        }
+        self.touches.push(touch);
+        self.of_touch.push(rows);
+        if let Some(ledger) = &mut world.ledger {
+            ledger.expect_touches(self.touches.len());
+        }
+    }
+
+    /// Where a body is by now in the part of the step and how it moves.
+    fn path_of(&self, world: &World, body: usize) -> Path {
+        let (frame, pull) = (&world.bodies.frame[body], Pull::on(&self.pulls, body));
+        match self.rows.of(body as u32) {
+            Some(row) => Fliers::path(&self.rows.rows[row as usize], frame, pull),
+            None => Path { frame: *frame, motion: world.bodies.motion[body], pull }.after(self.gone),
+        }
+    }
+
+    /// Gives a body that has none a row, where it has come to by now.
+    fn join(&mut self, world: &mut World, body: usize, path: &Path, under_way: Option<f64>) {
+        if self.rows.of(body as u32).is_some() {
+            return;
+        }
+        let alone = Path { frame: world.bodies.frame[body], motion: world.bodies.motion[body], pull: path.pull };
+        let change = alone.change(self.gone);
+        let row = self.rows.add(&world.bodies, body);
+        row.come(&change);
+        let row = self.rows.rows.len() as u32 - 1;
+        if self.gone > 0.0 {
+            self.book_ahead(world, row, self.gone);
+        }
+        self.fliers.join(&mut self.rows, under_way.map(|h| (&self.pulls[..], h)));
+    }
+}
