@@ -72,7 +72,10 @@ impl Contacts {
 
     /// What acts on a mobile body, by cause.
     fn forces(&self, plan: &Plan, body: usize) -> Forces {
-        let Some(pull) = self.pulls.get(body) else { return Forces::default() };
+        if !self.pulls.act() {
+            return Forces::default();
+        }
+        let pull = self.pulls.on(body);
         let gravity = plan.gravity();
         let pushed = Motion { v: pull.a - gravity, omega: pull.alpha };
         Forces { gravity, pushed, drag: pull.drag, ..Forces::default() }
@@ -83,7 +86,7 @@ impl Contacts {
         let row = &at.0;
         let body = self.rows.mobile[k] as usize;
         let time = h - self.fliers.spent[self.rows.first() + k];
-        let by_force = flier.is_forced(row, self.pulls.get(body), h);
+        let by_force = flier.is_forced(row, &self.pulls.on_mobile(body), h);
         let [vx, vz, spin] = flier.free;
         let [x, z, turn] = flier.goes(row, time, by_force);
         Stint {

@@ -3,6 +3,7 @@
 use super::Contacts;
 use super::abreast::{Abreast, Loyal, Side};
 use super::points::Points;
+use super::pulls::Pulls;
 use super::search::Search;
 use super::touch::Touch;
 use crate::advance::frame_before;
@@ -11,14 +12,13 @@ use crate::broad_phase::met::Owner;
 use crate::flight::Pull;
 use crate::frame::Frame;
 use crate::lanes::LANES;
-use crate::plan::FlightPlan;
 use crate::width::Work;
 use crate::world::World;
 
 /// What acts on the bodies over a step.
 #[derive(Clone, Copy)]
 pub(super) struct Acting<'a> {
-    each: &'a [Pull],
+    pulls: &'a Pulls,
     /// The same on all mobile bodies, unless some are pushed: then nothing has to be read for each.
     on_all: Option<Pull>,
 }
@@ -29,42 +29,23 @@ impl Acting<'_> {
         match self.on_all {
             Some(pull) if owner.is_mobile() => pull,
             Some(_) => Pull::NONE,
-            None => self.each[owner.body()],
+            None => self.pulls.on(owner.body()),
         }
     }
 }
 
-/// What acts on every mobile body that is not pushed.
-fn acting(flight: FlightPlan) -> Pull {
-    let (a, drag) = flight.forces();
-    Pull { a, alpha: 0.0, drag }
-}
-
 impl Contacts {
-    /// What acts on each body over the step: gravity, drag, pushes. Empty when nothing acts on any.
+    /// What acts on each body over the step.
     pub(super) fn pull(&mut self, world: &World) {
-        self.pulls.clear();
-        if world.plan.flight == FlightPlan::Free && world.pushes.is_empty() {
-            return;
-        }
-        let (fixed, mobile) = (Pull::NONE, acting(world.plan.flight));
-        let of = |body: usize| if world.bodies.is_mobile(body) { mobile } else { fixed };
-        self.pulls.extend((0..world.bodies.len()).map(of));
-        for push in &world.pushes {
-            let body = push.body as usize;
-            let pushed = push.acceleration(world.bodies.inertia[body]);
-            self.pulls[body].a += pushed.v;
-            self.pulls[body].alpha += pushed.omega;
-        }
+        self.pulls.set(world.plan.flight, &world.pushes, &world.bodies);
     }
 
     /// Finds all touches of the step, and what they remember of the last.
     pub(super) fn find(&mut self, world: &mut World, dt: f64) {
-        let World { plan, bodies, pushes, work, .. } = world;
-        let on_all = pushes.is_empty().then(|| acting(plan.flight));
+        let World { plan, bodies, work, .. } = world;
         core::mem::swap(&mut self.touches, &mut self.before);
         self.touches.clear();
-        let acting = Acting { each: &self.pulls, on_all };
+        let acting = Acting { pulls: &self.pulls, on_all: self.pulls.on_all() };
         self.search.pairs((bodies, acting, dt), plan.broad_phase, self.width, work);
         let earlier = |body: usize| frame_before(bodies, plan.flight, plan.time_step, body);
         let Contacts { search, touches, before, apart, width, .. } = self;

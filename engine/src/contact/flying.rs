@@ -1,8 +1,10 @@
 //! How bodies in contact go on over a sub-step: what acts on them, and where that takes them.
 
+use super::pulls::Pulls;
 use super::rows::{INVERSE_MASS, INVERSE_MOMENT, Row, Rows, SPIN, TURN, VX, VZ, X, Z};
 use super::touch::Touch;
 use crate::area::Vec2;
+use crate::bodies::Motion;
 use crate::flight::{Path, Pull, turned};
 use crate::forces::Flight;
 use crate::frame::Frame;
@@ -30,9 +32,9 @@ pub(super) struct Flier {
 
 impl Flier {
     /// Whether what changed its motion to that of its row acted all along the sub-step.
-    pub(super) fn is_forced(&self, row: &[f64; LANES], pull: Option<&Pull>, h: f64) -> bool {
+    pub(super) fn is_forced(&self, row: &[f64; LANES], pull: &Pull, h: f64) -> bool {
         let (dx, dz) = (row[VX] - self.start[0], row[VZ] - self.start[1]);
-        let pulled = pull.map_or(0.0, |pull| pull.a.norm_squared());
+        let pulled = pull.a.norm_squared();
         dx * dx + dz * dz <= FORCEFUL * FORCEFUL * pulled * h * h
     }
 
@@ -125,9 +127,11 @@ impl Fliers {
         now > free * (1.0 + 1e-12) + TWICE * given || fastest > TWICE * fastest_free.max(driven)
     }
 
-    /// Nothing that forces do in the time brings a body anywhere: all stand where they are.
-    pub(super) fn stay(&mut self, rows: &Rows, time: f64) {
-        for (row, flier) in rows.of_mobile().iter().zip(&mut self.fliers) {
+    /// All mobile bodies stop, and stay where they are through the time.
+    pub(super) fn stand(&mut self, rows: &mut Rows, time: f64) {
+        for (row, flier) in rows.of_mobile_mut().iter_mut().zip(&mut self.fliers) {
+            flier.carried = flier.changed(&row.0);
+            row.set_motion(Motion::default());
             flier.way = flier.changed(&row.0).map(|changed| -(0.5 * time) * changed);
         }
     }
@@ -149,14 +153,14 @@ impl Fliers {
     }
 
     /// A sub-step begins: gravity, drag and pushes act.
-    pub(super) fn set_out(&mut self, rows: &mut Rows, pulls: &[Pull], h: f64) {
+    pub(super) fn set_out(&mut self, rows: &mut Rows, pulls: &Pulls, h: f64) {
         for k in 0..self.fliers.len() {
             self.set_out_one(k, rows, pulls, h);
         }
     }
 
     #[inline]
-    fn set_out_one(&mut self, k: usize, rows: &mut Rows, pulls: &[Pull], h: f64) {
+    fn set_out_one(&mut self, k: usize, rows: &mut Rows, pulls: &Pulls, h: f64) {
         let at = rows.first() + k;
         let (flier, row, spent) = (&mut self.fliers[k], &mut rows.rows[at].0, self.spent[at]);
         flier.start = [row[VX], row[VZ], row[SPIN]];
@@ -167,7 +171,7 @@ impl Fliers {
                 flier.way = flier.start.map(|v| v * (h - spent));
             }
             Some((linear, angular)) => {
-                let pull = pulls[rows.mobile[k] as usize];
+                let pull = pulls.on_mobile(rows.mobile[k] as usize);
                 let (linear, angular) = if spent == 0.0 {
                     (*linear, *angular)
                 } else {
@@ -183,7 +187,7 @@ impl Fliers {
     }
 
     /// A body has been given a row, the last; in the midst of a sub-step where that has set out already.
-    pub(super) fn join(&mut self, rows: &mut Rows, under_way: Option<(&[Pull], f64)>) {
+    pub(super) fn join(&mut self, rows: &mut Rows, under_way: Option<(&Pulls, f64)>) {
         self.fliers.push(Flier::default());
         self.spent.push(0.0);
         self.stirred.push(0);
@@ -193,12 +197,12 @@ impl Fliers {
     }
 
     /// The sub-step ends: bodies have come where their motions took them.
-    pub(super) fn arrive(&mut self, rows: &mut Rows, pulls: &[Pull], h: f64) {
+    pub(super) fn arrive(&mut self, rows: &mut Rows, pulls: &Pulls, h: f64) {
         let first = rows.first();
         for (k, flier) in self.fliers.iter_mut().enumerate() {
             let row = &mut rows.rows[first + k].0;
             let left = h - self.spent[first + k];
-            let by_force = flier.is_forced(row, pulls.get(rows.mobile[k] as usize), h);
+            let by_force = flier.is_forced(row, &pulls.on_mobile(rows.mobile[k] as usize), h);
             let goes = flier.goes(row, left, by_force);
             flier.carried = flier.changed(row);
             for (k, d) in [X, Z, TURN].into_iter().enumerate() {

@@ -26,6 +26,7 @@ mod pairs;
 #[cfg(test)]
 mod plain;
 mod points;
+mod pulls;
 mod rest;
 mod rows;
 mod search;
@@ -41,7 +42,6 @@ mod weights;
 
 use crate::advance::advance_alone;
 use crate::bodies::{Bodies, Motion};
-use crate::flight::Pull;
 use crate::frame::Angle;
 use crate::plan::ContactPlan;
 use crate::step::Hit;
@@ -50,6 +50,7 @@ use crate::world::World;
 use blocks::Blocks;
 use flying::Fliers;
 use pairs::Pairs;
+use pulls::Pulls;
 use rest::Rest;
 use rows::Rows;
 use search::Search;
@@ -85,7 +86,7 @@ pub(crate) struct Contacts {
     dt: f64,
     gone: f64,
     /// What acts on each body over the step.
-    pulls: Vec<Pull>,
+    pulls: Pulls,
     rows: Rows,
     of_touch: Vec<(u32, u32)>,
     blocks: Blocks,
@@ -103,7 +104,9 @@ pub(crate) struct Contacts {
     clear: Vec<u32>,
     /// How many touches there were when the part of the step began; those that join it come after them.
     found: usize,
-    /// Whether all stands and nothing has been done since: a step changes nothing.
+    /// Whether nothing moved in the step before and nothing has been done since; and whether all sleeps for that, so that a step
+    /// changes nothing.
+    stood: bool,
     asleep: bool,
     /// How far a fixed body reaches from its centre at most \[m\].
     reach: f64,
@@ -127,7 +130,7 @@ impl Contacts {
             apart: Apart::default(),
             dt: 0.0,
             gone: 0.0,
-            pulls: Vec::new(),
+            pulls: Pulls::new(bodies),
             rows: Rows::default(),
             of_touch: Vec::new(),
             blocks: Blocks::default(),
@@ -140,6 +143,7 @@ impl Contacts {
             round: 0,
             clear: Vec::new(),
             found: 0,
+            stood: false,
             asleep: false,
             reach: (0..bodies.len())
                 .filter(|body| !bodies.is_mobile(*body))
@@ -192,7 +196,7 @@ impl World {
         contacts.open_books(self, time - dt);
         if !contacts.touches.is_empty() {
             let h = dt / f64::from(substeps);
-            let drag = (!contacts.pulls.is_empty()).then(|| self.plan.flight.forces().1);
+            let drag = contacts.pulls.act().then(|| self.plan.flight.forces().1);
             contacts.fliers.pace(drag, h);
             contacts.fliers.begin(&contacts.rows, (&contacts.touches, &contacts.of_touch), 1.0);
             for k in 0..substeps {
@@ -227,7 +231,8 @@ impl World {
     fn fly_alone(&mut self, contacts: &Contacts, dt: f64) {
         let World { plan, bodies, movers, work, .. } = self;
         let touched = |body: u32| !contacts.touches.is_empty() && contacts.rows.of(body).is_some();
-        let lost = advance_alone(bodies, movers, plan.flight, dt, &contacts.pulls, touched, work);
+        let pulls = contacts.pulls.act().then_some(|body: usize| contacts.pulls.on_mobile(body));
+        let lost = advance_alone(bodies, movers, plan.flight, dt, pulls, touched, work);
         if let Some(body) = lost {
             self.report_fault(body);
         }

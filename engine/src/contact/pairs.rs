@@ -4,7 +4,6 @@
 
 use super::Contacts;
 use super::strike::MOST_STRIKES;
-use crate::flight::Pull;
 use crate::world::World;
 
 /// The pairs that are left to impacts.
@@ -38,7 +37,7 @@ impl Contacts {
     pub(super) fn is_left_to_impacts(&self, k: usize) -> bool {
         let touch = &self.touches[k];
         let free = |body: u32| {
-            let pull = Pull::on(&self.pulls, body as usize);
+            let pull = self.pulls.on(body as usize);
             pull.a.norm_squared() == 0.0 && pull.alpha == 0.0
         };
         free(touch.a) && free(touch.b) && touch.gap[0].min(touch.gap[1]) >= -self.band

@@ -21,7 +21,7 @@ fn plainly(world: &World, contacts: &Contacts, dt: f64) -> Vec<Touch> {
     let earlier = |body: usize| frame_before(bodies, world.plan.flight, dt, body);
     let all: Vec<Placed> = (0..bodies.len()).flat_map(|body| Placed::all(bodies, body)).collect();
     let bounds = all.iter().map(|placed| {
-        let (low, high) = sweep(&Path::of(bodies, &contacts.pulls, placed.body), placed.rect, dt);
+        let (low, high) = sweep(&Path::of(bodies, &contacts.pulls.all(), placed.body), placed.rect, dt);
         let room = Vec2::repeat(ROOM * placed.rect.half().min());
         let (low, high) = (low - room, high + room);
         Bounds([low.x, low.y, high.x, high.y])
@@ -34,7 +34,7 @@ fn plainly(world: &World, contacts: &Contacts, dt: f64) -> Vec<Touch> {
             if !can || !bounds[i].meet(&bounds[j]) {
                 continue;
             }
-            let [path, other] = [one, two].map(|placed| Path::of(bodies, &contacts.pulls, placed.body));
+            let [path, other] = [one, two].map(|placed| Path::of(bodies, &contacts.pulls.all(), placed.body));
             let margin = path.closing(&other, one.rect.far(), two.rect.far(), dt)
                 + ROOM * (one.rect.half().min() + two.rect.half().min());
             let last = contacts.touches.iter().find(|touch| touch.rects == (i as u32, j as u32));
@@ -106,7 +106,7 @@ fn assert_stay_apart(world: &World, contacts: &Contacts, pair: (u32, u32), dt: f
     let pair = [all[pair.0 as usize], all[pair.1 as usize]];
     for held in 0..4 {
         let paths = [0, 1].map(|side| {
-            let path = Path::of(&world.bodies, &contacts.pulls, pair[side].body);
+            let path = Path::of(&world.bodies, &contacts.pulls.all(), pair[side].body);
             if held >> side & 1 == 1 { Path { pull: Pull::NONE, ..path } } else { path }
         });
         for k in 0..=16 {

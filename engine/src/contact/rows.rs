@@ -170,11 +170,6 @@ impl Rows {
             row[VX] * row[VX] + row[VZ] * row[VZ] + turning <= limit * limit
         })
     }
-
-    /// All mobile bodies stop.
-    pub(super) fn stop(&mut self) {
-        self.of_mobile_mut().iter_mut().for_each(|row| row.set_motion(Motion::default()));
-    }
 }
 
 fn row(bodies: &Bodies, body: usize, mobile: bool) -> Row {

@@ -7,8 +7,15 @@ use super::{Contacts, flying, weights};
 use crate::lanes::LANES;
 use crate::world::World;
 
-/// Sweeps in a sub-step, to and fro by turns: so many that about as many touches are solved, within limits.
-const SWEPT: usize = 16_000;
+/// Touches to solve in a sub-step, in sweeps to and fro by turns, within limits; and to improve after that. In a quiet scene, where
+/// things lean on each other, more of it pays than where they tumble.
+struct Budget {
+    swept: usize,
+    improved: u32,
+}
+
+const IN_QUIET: Budget = Budget { swept: 16_000, improved: 8_000 };
+const IN_MOTION: Budget = Budget { swept: 4_000, improved: 2_000 };
 const LEAST_SWEEPS: usize = 2;
 const MOST_SWEEPS: usize = 16;
 
@@ -29,9 +36,6 @@ const FIRST: u32 = 24;
 /// Weights are guessed where more than this share of what gravity does is not borne yet.
 const UNBALANCED: f64 = 1e-2;
 
-/// Touches to improve in a sub-step where little is to be improved.
-const BUDGET: u32 = 8_000;
-
 /// How often in a sub-step pushes spread to what stayed apart.
 const MOST_SPREADS: usize = 4;
 
@@ -44,6 +48,7 @@ impl Contacts {
         self.fliers.set_out(&mut self.rows, &self.pulls, h);
         let fastest = self.fliers.fastest();
         let quiet = fastest <= QUIET * pulled;
+        let budget = if quiet { IN_QUIET } else { IN_MOTION };
         if quiet {
             self.fliers.renew(&mut self.rows);
         } else {
@@ -52,12 +57,12 @@ impl Contacts {
         if fastest <= STILL * pulled && pulled > 0.0 {
             self.settle_touches(world, h, pulled, fastest);
         } else {
-            self.push_on(world, (h, pulled), LEAST_SWEEPS);
+            self.push_on(world, (h, pulled), &budget);
         }
         // A jam has no solution: pushes grow without end, and do harm once it gives way.
         if self.fliers.gained(&self.rows, self.reach) {
             self.begin_afresh();
-            self.push_on(world, (h, pulled), FRESH_SWEEPS);
+            self.push_on(world, (h, pulled), &Budget { swept: FRESH_SWEEPS * self.blocks.count, ..budget });
             if self.fliers.gained(&self.rows, self.reach) {
                 self.begin_afresh();
                 self.sweep_touches(world, FRESH_SWEEPS);
@@ -65,12 +70,14 @@ impl Contacts {
         }
     }
 
-    /// Improves all touches of a scene that moves, by so many sweeps at least.
-    fn push_on(&mut self, world: &mut World, (h, pulled): (f64, f64), least: usize) {
-        self.sweep_touches(world, (SWEPT / self.blocks.count).clamp(least, MOST_SWEEPS));
+    /// Improves all touches of a scene that moves.
+    fn push_on(&mut self, world: &mut World, (h, pulled): (f64, f64), budget: &Budget) {
+        self.sweep_touches(world, (budget.swept / self.blocks.count).clamp(LEAST_SWEEPS, MOST_SWEEPS));
         self.spread(world, h);
-        let most = self.few();
-        self.settle_for(world, Effort { pulled, most });
+        let most = self.few(budget);
+        if most > 0 {
+            self.settle_for(world, Effort { pulled, most });
+        }
     }
 
     /// Nothing pushes any more.
@@ -96,7 +103,7 @@ impl Contacts {
 
     /// Improves all touches of a scene that stands still together, for as long as it is worth it.
     fn settle_touches(&mut self, world: &mut World, h: f64, pulled: f64, fastest: f64) {
-        let most = if fastest == 0.0 { PATIENCE } else { self.patience.max(self.few()) };
+        let most = if fastest == 0.0 { PATIENCE } else { self.patience.max(self.few(&IN_QUIET)) };
         let Settled { left, enough, .. } = self.settle_for(world, Effort { pulled, most: FIRST.min(most) });
         if !enough {
             if left > UNBALANCED * pulled {
@@ -113,8 +120,8 @@ impl Contacts {
     }
 
     /// How many rounds are always worth it.
-    fn few(&self) -> u32 {
-        (BUDGET / self.blocks.count as u32).min(PATIENCE)
+    fn few(&self, budget: &Budget) -> u32 {
+        (budget.improved / self.blocks.count as u32).min(PATIENCE)
     }
 
     pub(super) fn settle_for(&mut self, world: &mut World, effort: Effort) -> Settled {

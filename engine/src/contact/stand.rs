@@ -5,6 +5,8 @@
 //! digit. A balance is accepted only where it leaves everything standing; else nothing has happened, and the step is taken in
 //! sub-steps.
 //!
+//! Where nothing has moved through a step the next has the same touches: they are not looked for again.
+//!
 //! With `sleeping(true)` a scene that has stood through a step sleeps until something is done to it: its steps cost nothing.
 
 use super::Contacts;
@@ -24,7 +26,8 @@ impl World {
         if contacts.asleep && self.pushes.is_empty() {
             return true;
         }
-        contacts.asleep = false;
+        let stood = contacts.stood && self.pushes.is_empty();
+        (contacts.asleep, contacts.stood) = (false, false);
         let dt = self.plan.time_step;
         let pulled = self.plan.gravity().norm() * dt;
         let effort = Effort { pulled, most: ROUNDS };
@@ -32,21 +35,29 @@ impl World {
         if pulled == 0.0 || contacts.plan.substeps == 1 || !contacts.presses() || !self.stands_still(limit) {
             return false;
         }
-        contacts.find(self, dt);
-        contacts.lay_out(self, dt);
+        if !stood {
+            contacts.find(self, dt);
+            contacts.lay_out(self, dt);
+            if contacts.touches.is_empty() {
+                return false;
+            }
+            contacts.begin_standing(self, dt);
+        }
         if !contacts.balance(self, dt, effort) {
             return false;
         }
         let time = self.advances as f64 * dt;
         contacts.open_books(self, time);
         contacts.book_substep(self, dt);
-        if contacts.blocks.are_overlapped() {
+        let overlapped = contacts.blocks.are_overlapped();
+        if overlapped {
             contacts.part_overlaps();
         }
         contacts.settle(self, 1.0 / f64::from(contacts.plan.substeps));
         self.fly_alone(contacts, dt);
         contacts.close_books(self, dt);
-        contacts.asleep = contacts.plan.sleeping && self.stands_still(0.0) && !contacts.blocks.are_overlapped();
+        contacts.stood = !overlapped && self.stands_still(0.0);
+        contacts.asleep = contacts.stood && contacts.plan.sleeping;
         true
     }
 
@@ -65,27 +76,27 @@ impl World {
 impl Contacts {
     /// Something has been done to a body: nothing sleeps any more.
     pub(crate) fn wake(&mut self) {
-        self.asleep = false;
+        (self.asleep, self.stood) = (false, false);
     }
 
-    /// Balances all forces over a step; whether they do and leave everything standing.
-    fn balance(&mut self, world: &mut World, dt: f64, effort: Effort) -> bool {
-        if self.touches.is_empty() {
-            return false;
-        }
+    /// Touches push as they did in the sub-steps of the step before, over the whole step.
+    fn begin_standing(&mut self, world: &World, dt: f64) {
         let times = f64::from(self.plan.substeps);
-        self.fliers.pace((!self.pulls.is_empty()).then(|| world.plan.flight.forces().1), dt);
+        self.fliers.pace(self.pulls.act().then(|| world.plan.flight.forces().1), dt);
         self.fliers.begin(&self.rows, (&self.touches, &self.of_touch), times);
         self.blocks.scale_pushes(times);
         // What little still moves is to stop, not to come back.
         self.look(0, dt, 0.0);
+    }
+
+    /// Balances all forces over a step; whether they do and leave everything standing.
+    fn balance(&mut self, world: &mut World, dt: f64, effort: Effort) -> bool {
         self.fliers.set_out(&mut self.rows, &self.pulls, dt);
         self.fliers.renew(&mut self.rows);
         let balanced = self.settle_for(world, effort).enough;
         let stand = balanced && self.rows.are_slower_than(effort.settled(self.touches.len()));
         if stand {
-            self.rows.stop();
-            self.fliers.stay(&self.rows, dt);
+            self.fliers.stand(&mut self.rows, dt);
         }
         stand
     }

@@ -182,7 +182,7 @@ impl Contacts {
 
     /// How strongly what acts on two bodies draws them together \[m/s²\].
     fn pulled_together(&self, touch: &Touch) -> f64 {
-        let pull = |body: u32| Pull::on(&self.pulls, body as usize);
+        let pull = |body: u32| self.pulls.on(body as usize);
         (pull(touch.a).a - pull(touch.b).a).dot(&touch.n).max(0.0)
     }
 
@@ -217,7 +217,7 @@ impl Contacts {
         let touch = &self.touches[k];
         let rows = self.rows_now(k);
         let of = |side: usize, body: u32| {
-            let pull = if flies[side] { Pull::on(&self.pulls, body as usize) } else { Pull::NONE };
+            let pull = if flies[side] { self.pulls.on(body as usize) } else { Pull::NONE };
             Fliers::path(&rows[side], &world.bodies.frame[body as usize], pull)
         };
         [of(0, touch.a), of(1, touch.b)]

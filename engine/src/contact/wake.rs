@@ -6,9 +6,11 @@
 
 use super::Contacts;
 use super::flying::Fliers;
+use super::rows::TURN;
 use super::touch::Touch;
 use crate::area::Vec2;
-use crate::flight::{Path, Pull};
+use crate::detect::overlap::widest_gap;
+use crate::flight::Path;
 use crate::world::World;
 
 /// What contacts change of a body's motion beyond holding it against gravity, as a share of what that does in a sub-step,
@@ -114,6 +116,9 @@ impl Contacts {
     fn look_once_more(&mut self, world: &mut World, pair: usize, under_way: Option<f64>) {
         let rects = [self.apart.pairs[pair].0, self.apart.pairs[pair].1];
         let bodies = rects.map(|rect| self.search.body_of(rect));
+        if !self.may_meet(world, rects, bodies) {
+            return;
+        }
         let paths = bodies.map(|body| self.path_of(world, body));
         let placed = [0, 1].map(|side| {
             let mut placed = self.search.placed(&world.bodies, rects[side]).0;
@@ -145,9 +150,36 @@ impl Contacts {
         }
     }
 
+    /// Whether two rectangles may come to touch in what is left of the part, by the axis that held them apart when it began.
+    fn may_meet(&self, world: &World, rects: [u32; 2], bodies: [usize; 2]) -> bool {
+        let [a, b] = rects.map(|rect| self.search.placed(&world.bodies, rect).0);
+        let (axis, gap) = widest_gap(a.frame, a.rect, b.frame, b.rect);
+        let left = self.dt - self.gone;
+        let (mut now, mut end, mut room) = ([0.0; 2], [0.0; 2], 0.0);
+        for side in 0..2 {
+            let pull = self.pulls.on(bodies[side]);
+            let (place, motion, turn) = match self.rows.of(bodies[side] as u32) {
+                Some(row) => {
+                    let row = &self.rows.rows[row as usize];
+                    (row.place(), row.motion(), row.0[TURN].abs())
+                }
+                None => {
+                    let motion = world.bodies.motion[bodies[side]];
+                    (motion.v * self.gone, motion, motion.omega.abs() * self.gone)
+                }
+            };
+            now[side] = axis.dot(&place);
+            end[side] = now[side] + axis.dot(&motion.v) * left;
+            let turned = turn + motion.omega.abs() * left;
+            let held = pull.a.norm() + pull.drag.0 * motion.v.norm();
+            room += turned * [a, b][side].rect.far() + 0.5 * held * self.dt * self.dt;
+        }
+        gap + (now[1] - now[0]).min(end[1] - end[0]) <= room
+    }
+
     /// Where a body is by now in the part of the step and how it moves.
     fn path_of(&self, world: &World, body: usize) -> Path {
-        let (frame, pull) = (&world.bodies.frame[body], Pull::on(&self.pulls, body));
+        let (frame, pull) = (&world.bodies.frame[body], self.pulls.on(body));
         match self.rows.of(body as u32) {
             Some(row) => Fliers::path(&self.rows.rows[row as usize], frame, pull),
             None => Path { frame: *frame, motion: world.bodies.motion[body], pull }.after(self.gone),
@@ -167,6 +199,6 @@ impl Contacts {
         if self.gone > 0.0 {
             self.book_ahead(world, row, self.gone);
         }
-        self.fliers.join(&mut self.rows, under_way.map(|h| (&self.pulls[..], h)));
+        self.fliers.join(&mut self.rows, under_way.map(|h| (&self.pulls, h)));
     }
 }

@@ -49,6 +49,25 @@ pub fn depth(a: &Frame, rect_a: &Rect, b: &Frame, rect_b: &Rect) -> f64 {
     x.min(z).min(own_x).min(own_z)
 }
 
+/// The axis that holds two rectangles apart the most, from the first to the second in the world, and by how much \[m\]; negative
+/// where none does.
+#[must_use]
+pub fn widest_gap(a: &Frame, rect_a: &Rect, b: &Frame, rect_b: &Rect) -> (Vec2, f64) {
+    let relative = Relative::new(a, rect_a, b, rect_b);
+    let [x, z, own_x, own_z] = relative.overlaps();
+    let Relative { centres: d, cos, sin, .. } = relative;
+    let (axis, overlap) = if x.min(z) <= own_x.min(own_z) {
+        if x <= z { (Vec2::new(-d.x.signum(), 0.0), x) } else { (Vec2::new(0.0, -d.y.signum()), z) }
+    } else if own_x <= own_z {
+        let side = -(cos * d.x + sin * d.y).signum();
+        (Vec2::new(cos, sin) * side, own_x)
+    } else {
+        let side = -(cos * d.y - sin * d.x).signum();
+        (Vec2::new(-sin, cos) * side, own_z)
+    };
+    (b.outward(axis), -overlap)
+}
+
 /// Deepest overlap between the rectangles of two bodies \[m\]; 0 or less when there is none.
 #[must_use]
 pub fn between(bodies: &Bodies, i: usize, j: usize) -> f64 {
