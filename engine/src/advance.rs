@@ -86,7 +86,7 @@ pub(crate) fn advance_alone(
     movers: &Movers,
     flight: FlightPlan,
     dt: f64,
-    pulls: Option<impl Fn(usize) -> Pull>,
+    pulls: Option<&impl Fn(usize) -> Pull>,
     touched: impl Fn(u32) -> bool,
     work: &mut Work,
 ) -> Option<usize> {
@@ -99,7 +99,7 @@ pub(crate) fn advance_alone(
         }
         let i = body as usize;
         let Motion { v, omega } = bodies.motion[i];
-        let Pull { a, alpha, .. } = pulls.as_ref().map_or(Pull::NONE, |on| on(i));
+        let Pull { a, alpha, .. } = pulls.map_or(Pull::NONE, |on| on(i));
         bodies.shift(i, v * linear.reach + a * linear.fall);
         if omega != 0.0 || alpha != 0.0 {
             bodies.turn(i, omega * angular.reach + alpha * angular.fall);

@@ -65,6 +65,7 @@ pub mod push;
 pub mod relocate;
 pub mod scene;
 pub mod step;
+mod threads;
 pub mod totals;
 pub mod trig;
 pub mod width;

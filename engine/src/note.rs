@@ -165,6 +165,9 @@ fn overlap_note(world: &World, i: usize, j: usize, depth: f64) -> Note {
     let outcome = match (is_seen, world.plan.exchange) {
         (false, _) => "no vertex of one lies in the other, so detection(\"vertices\") does not see it",
         (true, ExchangePlan::Document { .. }) => "the first iteration will begin to part them",
+        (true, ExchangePlan::Impulse) if world.plan.contact.is_some() => {
+            "contacts will part them within a few iterations"
+        }
         (true, ExchangePlan::Impulse) => "the impulse exchange does not move bodies, so it stays until they part",
     };
     let text = format!("it starts {} m deep in \"{}\"; {outcome}", shown(rounded(depth)), name(j));

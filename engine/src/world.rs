@@ -18,6 +18,7 @@ use crate::load;
 use crate::plan::{ExchangePlan, MotionPlan, Plan};
 use crate::push::Push;
 use crate::scene::{Detection, Kind, Scene};
+use crate::threads::Threads;
 use crate::work::Work;
 
 /// A body of a world: its index in order of creation.
@@ -59,7 +60,7 @@ pub struct World {
     pub(crate) ledger: Option<Box<Ledger>>,
     pub(crate) directory: Directory,
     /// Threads an iteration may be shared by, at least 1; no result depends on it.
-    threads: usize,
+    pub(crate) threads: Threads,
 }
 
 impl World {
@@ -105,7 +106,7 @@ impl World {
             fault: None,
             work: Work::default(),
             directory: Directory::new(scene),
-            threads: 1,
+            threads: Threads::new(1),
         })
     }
 
@@ -143,12 +144,12 @@ impl World {
     /// Threads an iteration may be shared by: 1 unless [`set_threads`](Self::set_threads) says otherwise.
     #[must_use]
     pub fn threads(&self) -> usize {
-        self.threads
+        self.threads.count()
     }
 
-    /// Lets an iteration be shared by up to so many threads; 0 counts as 1. Results have the same bits at any number.
+    /// Lets an iteration be shared by up to so many threads, 64 at most; 0 counts as 1. Results have the same bits at any number.
     pub fn set_threads(&mut self, threads: usize) {
-        self.threads = threads.max(1);
+        self.threads = Threads::new(threads);
     }
 
     /// Counted work so far.

@@ -13,6 +13,7 @@ use crate::detect::complete::PREFERENCE;
 use crate::detect::manifold::Placed;
 use crate::detect::near::{DEEP, LOYALTY};
 use crate::lanes::{Eight, LANES};
+use crate::width::transpose;
 
 /// Two numbers along x and z, in every lane.
 pub(super) type Pair = [Eight; 2];
@@ -41,25 +42,20 @@ pub(super) struct Side {
 
 impl Side {
     #[inline(always)]
-    pub(super) fn of(bodies: &Bodies, acting: Acting, placed: &[(Placed, Owner); LANES]) -> Side {
-        let zero = Eight::ZERO;
-        let pair = [zero; 2];
-        let (mut o, mut axis, mut low, mut high, mut v, mut acceleration) = (pair, pair, pair, pair, pair, pair);
-        let (mut omega, mut angular) = (zero, zero);
-        for (k, (placed, owner)) in placed.iter().enumerate() {
-            let &Placed { body, frame, rect, .. } = placed;
-            let motion = &bodies.motion[body];
-            (o[0].0[k], o[1].0[k]) = (frame.o.x, frame.o.y);
-            (axis[0].0[k], axis[1].0[k]) = (frame.cos, frame.sin);
-            (low[0].0[k], low[1].0[k]) = (rect.x_min, rect.z_min);
-            (high[0].0[k], high[1].0[k]) = (rect.x_max, rect.z_max);
-            (v[0].0[k], v[1].0[k]) = (motion.v.x, motion.v.y);
-            omega.0[k] = motion.omega;
-            let pull = acting.on(*owner);
+    pub(super) fn of<const W: usize>(bodies: &Bodies, acting: Acting, placed: &[(Placed, Owner); LANES]) -> Side {
+        let places = placed.map(|(Placed { frame, rect, .. }, _)| {
+            Eight([frame.o.x, frame.o.y, frame.cos, frame.sin, rect.x_min, rect.x_max, rect.z_min, rect.z_max])
+        });
+        let motions = placed.map(|(Placed { body, .. }, owner)| {
+            let (motion, pull) = (&bodies.motion[body], acting.on(owner));
             let now = pull.a - motion.v * pull.drag.0;
-            (acceleration[0].0[k], acceleration[1].0[k]) = (now.x, now.y);
-            angular.0[k] = pull.alpha - motion.omega * pull.drag.1;
-        }
+            let angular = pull.alpha - motion.omega * pull.drag.1;
+            Eight([motion.v.x, motion.v.y, motion.omega, now.x, now.y, angular, 0.0, 0.0])
+        });
+        let [x, z, cos, sin, x_min, x_max, z_min, z_max] = transpose::<W>(places);
+        let [vx, vz, omega, ax, az, angular, ..] = transpose::<W>(motions);
+        let (o, axis, low, high) = ([x, z], [cos, sin], [x_min, z_min], [x_max, z_max]);
+        let (v, acceleration) = ([vx, vz], [ax, az]);
         let middle = Eight::all(0.5);
         let half = [middle * (high[0] - low[0]), middle * (high[1] - low[1])];
         let centre = [middle * (low[0] + high[0]), middle * (low[1] + high[1])];

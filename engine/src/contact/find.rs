@@ -12,6 +12,7 @@ use crate::broad_phase::met::Owner;
 use crate::flight::Pull;
 use crate::frame::Frame;
 use crate::lanes::LANES;
+use crate::threads::Threads;
 use crate::width::Work;
 use crate::world::World;
 
@@ -42,16 +43,59 @@ impl Contacts {
 
     /// Finds all touches of the step, and what they remember of the last.
     pub(super) fn find(&mut self, world: &mut World, dt: f64) {
-        let World { plan, bodies, work, .. } = world;
+        let World { plan, bodies, threads, work, .. } = world;
+        let bodies = &*bodies;
         core::mem::swap(&mut self.touches, &mut self.before);
         self.touches.clear();
         let acting = Acting { pulls: &self.pulls, on_all: self.pulls.on_all() };
-        self.search.pairs((bodies, acting, dt), plan.broad_phase, self.width, work);
+        self.search.pairs((bodies, acting, dt), plan.broad_phase, (self.width, *threads), work);
         let earlier = |body: usize| frame_before(bodies, plan.flight, plan.time_step, body);
         let Contacts { search, touches, before, apart, width, .. } = self;
         let apart = apart.begin();
-        width.run(Look { bodies, acting, search, before, touches, apart, dt, earlier });
+        let (search, before, width) = (&*search, &before[..], *width);
+        let tasks: Vec<_> = threads
+            .parts(search.near().len(), LANES, PER_THREAD)
+            .into_iter()
+            .map(|part| {
+                let near = &search.near()[part];
+                let before = near
+                    .first()
+                    .map_or(before, |first| &before[before.partition_point(|touch| touch.rects < *first)..]);
+                move |touches: &mut Vec<Touch>, apart: &mut Vec<(u32, u32)>| {
+                    width.run(Look { bodies, acting, search, near, before, touches, apart, dt, earlier });
+                }
+            })
+            .collect();
+        share(tasks, touches, apart);
         work.pairs_listed += self.touches.len() as u64;
+    }
+}
+
+/// Fewer pairs than so many for a thread are not shared out.
+const PER_THREAD: usize = 2048;
+
+/// The first task finds what it finds right into the lists, the others into lists of their own, which are put behind in order.
+fn share<F>(tasks: Vec<F>, touches: &mut Vec<Touch>, apart: &mut Vec<(u32, u32)>)
+where
+    F: FnOnce(&mut Vec<Touch>, &mut Vec<(u32, u32)>) + Send,
+{
+    let mut lists: Vec<_> = tasks.iter().map(|_| (Vec::new(), Vec::new())).collect();
+    if let Some(first) = lists.first_mut() {
+        *first = (core::mem::take(touches), core::mem::take(apart));
+    }
+    let tasks = tasks.into_iter().zip(lists).map(|(task, (mut touches, mut apart))| {
+        move || {
+            task(&mut touches, &mut apart);
+            (touches, apart)
+        }
+    });
+    let mut found = Threads::share(tasks.collect()).into_iter();
+    if let Some(first) = found.next() {
+        (*touches, *apart) = first;
+    }
+    for (more_touches, more_apart) in found {
+        touches.extend(more_touches);
+        apart.extend(more_apart);
     }
 }
 
@@ -60,6 +104,7 @@ struct Look<'a, F> {
     bodies: &'a Bodies,
     acting: Acting<'a>,
     search: &'a Search,
+    near: &'a [(u32, u32)],
     before: &'a [Touch],
     touches: &'a mut Vec<Touch>,
     /// Pairs that stay apart unless something is done to them.
@@ -73,22 +118,22 @@ impl<F: Fn(usize) -> Frame + Copy> Work for Look<'_, F> {
     type Out = ();
 
     #[inline(always)]
-    fn run(self) {
-        let Look { bodies, acting, search, before, touches, apart, dt, earlier } = self;
+    fn run<const W: usize>(self) {
+        let Look { bodies, acting, search, near, before, touches, apart, dt, earlier } = self;
         let mut next = 0;
-        for keys in search.near().chunks(LANES) {
+        for keys in near.chunks(LANES) {
             let mut one = [search.placed(bodies, keys[0].0); LANES];
             let mut two = [search.placed(bodies, keys[0].1); LANES];
             for (k, key) in keys.iter().enumerate().skip(1) {
                 (one[k], two[k]) = (search.placed(bodies, key.0), search.placed(bodies, key.1));
             }
-            let pairs = Abreast::new(Side::of(bodies, acting, &one), Side::of(bodies, acting, &two), dt);
-            let near = pairs.may();
-            if near.greatest() < 0.0 {
+            let pairs = Abreast::new(Side::of::<W>(bodies, acting, &one), Side::of::<W>(bodies, acting, &two), dt);
+            let listed = pairs.may();
+            if listed.greatest() < 0.0 {
                 continue;
             }
-            let may = near.min(-pairs.stay_apart(dt));
-            apart.extend((0..keys.len()).filter(|k| near.0[*k] > may.0[*k]).map(|k| keys[k]));
+            let may = listed.min(-pairs.stay_apart(dt));
+            apart.extend((0..keys.len()).filter(|k| listed.0[*k] > may.0[*k]).map(|k| keys[k]));
             if may.greatest() < 0.0 {
                 continue;
             }

@@ -28,11 +28,11 @@ impl Work for Look<'_> {
     type Out = ();
 
     #[inline(always)]
-    fn run(self) {
+    fn run<const W: usize>(self) {
         let (rate, band) = (Eight::all(1.0 / self.h), Eight::all(self.band));
         let pulled = Eight::all(self.pulled);
         for block in self.blocks {
-            let (a, b) = (gather(self.rows, &block.row_a), gather(self.rows, &block.row_b));
+            let (a, b) = (gather::<W>(self.rows, &block.row_a), gather::<W>(self.rows, &block.row_b));
             let gap = gaps(block, &a, &b);
             let along_n = block.nx * (b[VX] - a[VX]) + block.nz * (b[VZ] - a[VZ]);
             #[allow(clippy::needless_range_loop)] // of several arrays
@@ -55,10 +55,10 @@ impl Work for Warm<'_> {
     type Out = ();
 
     #[inline(always)]
-    fn run(self) {
+    fn run<const W: usize>(self) {
         for block in self.blocks {
             let [first, second] = block.push;
-            push(block, |a, b| Arms::of(block, a, b), self.rows, [first, second, block.grip]);
+            push::<W>(block, |a, b| Arms::of(block, a, b), self.rows, [first, second, block.grip]);
         }
     }
 }

@@ -232,7 +232,7 @@ impl World {
         let World { plan, bodies, movers, work, .. } = self;
         let touched = |body: u32| !contacts.touches.is_empty() && contacts.rows.of(body).is_some();
         let pulls = contacts.pulls.act().then_some(|body: usize| contacts.pulls.on_mobile(body));
-        let lost = advance_alone(bodies, movers, plan.flight, dt, pulls, touched, work);
+        let lost = advance_alone(bodies, movers, plan.flight, dt, pulls.as_ref(), touched, work);
         if let Some(body) = lost {
             self.report_fault(body);
         }

@@ -152,10 +152,10 @@ impl Work for Round<'_> {
     type Out = (f64, f64);
 
     #[inline(always)]
-    fn run(self) -> (f64, f64) {
+    fn run<const W: usize>(self) -> (f64, f64) {
         let (mut most, mut back) = (Eight::ZERO, Eight::ZERO);
         for (block, guess) in self.blocks.iter().zip(self.guesses) {
-            let (a, b) = (gather(self.from, &block.row_a), gather(self.from, &block.row_b));
+            let (a, b) = (gather::<W>(self.from, &block.row_a), gather::<W>(self.from, &block.row_b));
             let arms = Arms::at_first(block);
             let shared = Response::with(&arms, (a[SHARED_MASS], a[SHARED_MOMENT]), (b[SHARED_MASS], b[SHARED_MOMENT]));
             let from: [Eight; 3] = core::array::from_fn(|k| guess.x[k] + self.share * (guess.x[k] - guess.last[k]));
@@ -166,7 +166,7 @@ impl Work for Round<'_> {
                 most = most.max(change[k].abs());
             }
             *guess = Guess { x, last: guess.x };
-            push(block, |_, _| Arms::at_first(block), self.to, step);
+            push::<W>(block, |_, _| Arms::at_first(block), self.to, step);
         }
         (most.greatest(), back.sum())
     }

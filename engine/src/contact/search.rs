@@ -6,9 +6,12 @@ use crate::bodies::Bodies;
 use crate::broad_phase::grid::Grid;
 use crate::broad_phase::met::{Bounds, Met, Owner};
 use crate::detect::manifold::Placed;
+use crate::lanes::LANES;
 use crate::plan::BroadPhasePlan;
+use crate::threads::Threads;
 use crate::width::{self, Width};
 use crate::work::Work;
+use core::ops::Range;
 
 /// The search and its scratch; it allocates until it is warm and never after.
 #[derive(Clone, Debug, Default)]
@@ -18,11 +21,15 @@ pub(super) struct Search {
     /// What each sweeps over the step.
     bounds: Vec<Bounds>,
     grid: Grid,
-    met: Met,
+    /// What was found, by the parts it was shared out in.
+    met: Vec<Met>,
     /// The pairs found, by the indices of their rectangles, i < j, in order.
     near: Vec<(u32, u32)>,
     begins: Vec<u32>,
 }
+
+/// Fewer rectangles or cells than so many for a thread are not shared out.
+const PER_THREAD: usize = 2048;
 
 /// Fewer pairs than one for so many rectangles are sorted by comparing them.
 const SPARSE: usize = 8;
@@ -33,10 +40,10 @@ impl Search {
         &mut self,
         (bodies, acting, dt): (&Bodies, Acting, f64),
         plan: BroadPhasePlan,
-        width: Width,
+        (width, threads): (Width, Threads),
         work: &mut Work,
     ) {
-        self.sweep((bodies, acting, dt), width);
+        self.sweep((bodies, acting, dt), (width, threads));
         work.bounds += self.bounds.len() as u64;
         self.near.clear();
         let Search { owners, bounds, grid, met, near, .. } = self;
@@ -45,7 +52,16 @@ impl Search {
             return;
         }
         grid.fill(bounds, owners);
-        work.bounds_compared += width.run(Visit { grid, met });
+        let grid = &*grid;
+        let parts = threads.parts(grid.cells() as usize, 1, PER_THREAD);
+        met.resize_with(met.len().max(parts.len()), Met::default);
+        met.truncate(parts.len());
+        let tasks: Vec<_> = parts
+            .into_iter()
+            .zip(met.iter_mut())
+            .map(|(part, met)| move || width.run(Visit { grid, cells: part.start as u32..part.end as u32, met }))
+            .collect();
+        work.bounds_compared += Threads::share(tasks).into_iter().sum::<u64>();
         self.sort();
         count(work, self.near.len());
     }
@@ -68,7 +84,7 @@ impl Search {
         (Placed { body, frame: &bodies.frame[body], index, rect: &bodies.rects[index] }, owner)
     }
 
-    fn sweep(&mut self, (bodies, acting, dt): (&Bodies, Acting, f64), width: Width) {
+    fn sweep(&mut self, (bodies, acting, dt): (&Bodies, Acting, f64), (width, threads): (Width, Threads)) {
         let count = bodies.rects.len();
         if self.owners.len() != count {
             self.owners.clear();
@@ -79,20 +95,29 @@ impl Search {
             self.bounds.resize(count, Bounds([0.0; 4]));
         }
         let Search { owners, bounds, .. } = self;
-        width.run(SweepAll { bodies, acting, owners, dt, bounds });
+        let mut rest = &mut bounds[..];
+        let mut tasks = Vec::new();
+        for part in threads.parts(count, LANES, PER_THREAD) {
+            let (bounds, others) = rest.split_at_mut(part.len());
+            rest = others;
+            let owners = &owners[..];
+            tasks.push(move || width.run(SweepAll { bodies, acting, owners, dt, from: part.start, bounds }));
+        }
+        Threads::share(tasks);
     }
 
     /// Puts the pairs in order: counted by their first, placed, then each first's by their second.
     fn sort(&mut self) {
-        let met = self.met.pairs();
-        if SPARSE * met.len() < self.bounds.len() {
-            self.near.extend_from_slice(met);
+        let met = || self.met.iter().flat_map(|met| met.pairs());
+        let count: usize = self.met.iter().map(|met| met.pairs().len()).sum();
+        if SPARSE * count < self.bounds.len() {
+            self.near.extend(met());
             self.near.sort_unstable();
             return;
         }
         self.begins.clear();
         self.begins.resize(self.bounds.len() + 1, 0);
-        for (i, _) in met {
+        for (i, _) in met() {
             self.begins[*i as usize] += 1;
         }
         let mut end = 0;
@@ -100,8 +125,8 @@ impl Search {
             end += *begin;
             *begin = end;
         }
-        self.near.resize(met.len(), (0, 0));
-        for pair in met {
+        self.near.resize(count, (0, 0));
+        for pair in met() {
             let begin = &mut self.begins[pair.0 as usize];
             *begin -= 1;
             self.near[*begin as usize] = *pair;
@@ -139,6 +164,7 @@ fn count(work: &mut Work, pairs: usize) {
 /// Looks through the grid.
 struct Visit<'a> {
     grid: &'a Grid,
+    cells: Range<u32>,
     met: &'a mut Met,
 }
 
@@ -146,7 +172,7 @@ impl width::Work for Visit<'_> {
     type Out = u64;
 
     #[inline(always)]
-    fn run(self) -> u64 {
-        self.grid.visit(0..self.grid.cells(), self.met)
+    fn run<const W: usize>(self) -> u64 {
+        self.grid.visit(self.cells, self.met)
     }
 }

@@ -7,8 +7,8 @@
 
 use super::blocks::Block;
 use super::rows::{INVERSE_MASS, INVERSE_MOMENT, Row, SPIN, TURN, VX, VZ, X, Z};
-use crate::lanes::{Eight, LANES, transpose};
-use crate::width::Work;
+use crate::lanes::{Eight, LANES};
+use crate::width::{self, Work};
 
 /// A determinant below this share of its terms is none.
 const SAME: f64 = 1e-12;
@@ -27,11 +27,11 @@ impl<const FRICTION: bool> Work for Sweep<'_, FRICTION> {
     type Out = ();
 
     #[inline(always)]
-    fn run(self) {
+    fn run<const W: usize>(self) {
         let count = self.blocks.len();
         for at in 0..count {
             let block = &mut self.blocks[if self.back { count - 1 - at } else { at }];
-            let (mut a, mut b) = (gather(self.rows, &block.row_a), gather(self.rows, &block.row_b));
+            let (mut a, mut b) = (gather::<W>(self.rows, &block.row_a), gather::<W>(self.rows, &block.row_b));
             let arms = Arms::of(block, &a, &b);
             let response = Response::of(&arms, &a, &b);
             let gap = gaps(block, &a, &b);
@@ -41,8 +41,8 @@ impl<const FRICTION: bool> Work for Sweep<'_, FRICTION> {
             if FRICTION {
                 rub(block, &arms, (&mut a, &mut b));
             }
-            scatter(self.rows, &block.row_a, a);
-            scatter(self.rows, &block.row_b, b);
+            scatter::<W>(self.rows, &block.row_a, a);
+            scatter::<W>(self.rows, &block.row_b, b);
         }
     }
 }
@@ -58,15 +58,15 @@ impl Work for Part<'_> {
     type Out = ();
 
     #[inline(always)]
-    fn run(self) {
+    fn run<const W: usize>(self) {
         for block in self.blocks {
-            let (mut a, mut b) = (gather(self.rows, &block.row_a), gather(self.rows, &block.row_b));
+            let (mut a, mut b) = (gather::<W>(self.rows, &block.row_a), gather::<W>(self.rows, &block.row_b));
             let arms = Arms::of(block, &a, &b);
             let response = Response::of(&arms, &a, &b);
             let gap = gaps(block, &a, &b);
             part_overlap(block, &arms, (&mut a, &mut b), &response, gap, Eight::all(self.band));
-            scatter(self.rows, &block.row_a, a);
-            scatter(self.rows, &block.row_b, b);
+            scatter::<W>(self.rows, &block.row_a, a);
+            scatter::<W>(self.rows, &block.row_b, b);
         }
     }
 }
@@ -231,26 +231,33 @@ fn give((a, b): (&mut Lanes, &mut Lanes), [x, z, turn]: [usize; 3], p: [Eight; 2
 
 /// Gives pushes at both points and friction along the face to the bodies of a block.
 #[inline(always)]
-pub(super) fn push(block: &Block, arms: impl Fn(&Lanes, &Lanes) -> Arms, rows: &mut [Row], [p1, p2, pt]: [Eight; 3]) {
-    let (mut a, mut b) = (gather(rows, &block.row_a), gather(rows, &block.row_b));
+pub(super) fn push<const W: usize>(
+    block: &Block,
+    arms: impl Fn(&Lanes, &Lanes) -> Arms,
+    rows: &mut [Row],
+    [p1, p2, pt]: [Eight; 3],
+) {
+    let (mut a, mut b) = (gather::<W>(rows, &block.row_a), gather::<W>(rows, &block.row_b));
     let arms = arms(&a, &b);
     let sum = p1 + p2;
     let p = [block.nx * sum + block.nz * pt, block.nz * sum - block.nx * pt];
     let turn_a = a[INVERSE_MOMENT] * (arms.lever_a[0] * p1 + arms.lever_a[1] * p2 + arms.along_a * pt);
     let turn_b = b[INVERSE_MOMENT] * (arms.lever_b[0] * p1 + arms.lever_b[1] * p2 + arms.along_b * pt);
     give((&mut a, &mut b), MOTION, p, [turn_a, turn_b]);
-    scatter(rows, &block.row_a, a);
-    scatter(rows, &block.row_b, b);
+    scatter::<W>(rows, &block.row_a, a);
+    scatter::<W>(rows, &block.row_b, b);
 }
 
+/// The rows of eight bodies, a column for each of their numbers.
 #[inline(always)]
-pub(super) fn gather(rows: &[Row], at: &[u32; LANES]) -> Lanes {
-    transpose(core::array::from_fn(|k| rows[at[k] as usize].0))
+pub(super) fn gather<const W: usize>(rows: &[Row], at: &[u32; LANES]) -> Lanes {
+    width::transpose::<W>(core::array::from_fn(|k| Eight(rows[at[k] as usize].0)))
 }
 
+/// Puts them back.
 #[inline(always)]
-pub(super) fn scatter(rows: &mut [Row], at: &[u32; LANES], lanes: Lanes) {
-    let out = transpose(lanes.map(|lane| lane.0));
+pub(super) fn scatter<const W: usize>(rows: &mut [Row], at: &[u32; LANES], lanes: Lanes) {
+    let out = width::transpose::<W>(lanes);
     for k in 0..LANES {
         rows[at[k] as usize].0 = out[k].0;
     }

@@ -5,8 +5,8 @@ use super::points::root;
 use crate::area::Vec2;
 use crate::bodies::Bodies;
 use crate::broad_phase::met::{Bounds, Owner};
-use crate::lanes::{Eight, LANES, transpose};
-use crate::width::Work;
+use crate::lanes::{Eight, LANES};
+use crate::width::{Work, transpose};
 
 /// Room left around rectangles, as a share of the smaller half size: what a body may be pushed within a step beyond where it
 /// was going.
@@ -18,6 +18,8 @@ pub(super) struct SweepAll<'a> {
     pub(super) acting: Acting<'a>,
     pub(super) owners: &'a [Owner],
     pub(super) dt: f64,
+    /// From which rectangle on, and what is computed of those.
+    pub(super) from: usize,
     pub(super) bounds: &'a mut [Bounds],
 }
 
@@ -25,14 +27,14 @@ impl Work for SweepAll<'_> {
     type Out = ();
 
     #[inline(always)]
-    fn run(self) {
-        let SweepAll { bodies, acting, owners, dt, bounds } = self;
-        for first in (0..owners.len()).step_by(LANES) {
-            let lanes = Lanes::load(bodies, acting, owners, first);
-            let count = LANES.min(owners.len() - first);
+    fn run<const W: usize>(self) {
+        let SweepAll { bodies, acting, owners, from, dt, bounds } = self;
+        for first in (0..bounds.len()).step_by(LANES) {
+            let lanes = Lanes::load::<W>(bodies, acting, owners, from + first);
+            let count = LANES.min(bounds.len() - first);
             let [x0, z0, x1, z1] = lanes.bounds(dt);
             let zero = Eight::ZERO;
-            let around = transpose([x0.0, z0.0, x1.0, z1.0, zero.0, zero.0, zero.0, zero.0]);
+            let around = transpose::<W>([x0, z0, x1, z1, zero, zero, zero, zero]);
             for k in 0..count {
                 let [x0, z0, x1, z1, ..] = around[k].0;
                 bounds[first + k] = Bounds([x0, z0, x1, z1]);
@@ -59,37 +61,32 @@ struct Lanes {
 
 impl Lanes {
     #[inline(always)]
-    fn load(bodies: &Bodies, acting: Acting, owners: &[Owner], first: usize) -> Lanes {
-        let zero = Eight::ZERO;
-        let mut lanes = Lanes {
-            o: [zero; 2],
-            cos: zero,
-            sin: zero,
-            v: [zero; 2],
-            omega: zero,
-            rect: [zero; 4],
-            acceleration: [zero; 2],
-            angular: zero,
-            straight: zero,
-        };
-        for k in 0..LANES {
-            let at = (first + k).min(owners.len() - 1);
-            let body = owners[at].body();
-            let (frame, motion, rect) = (&bodies.frame[body], &bodies.motion[body], &bodies.rects[at]);
-            (lanes.o[0].0[k], lanes.o[1].0[k]) = (frame.o.x, frame.o.y);
-            (lanes.cos.0[k], lanes.sin.0[k]) = (frame.cos, frame.sin);
-            (lanes.v[0].0[k], lanes.v[1].0[k]) = (motion.v.x, motion.v.y);
-            lanes.omega.0[k] = motion.omega;
-            for (side, value) in [rect.x_min, rect.x_max, rect.z_min, rect.z_max].into_iter().enumerate() {
-                lanes.rect[side].0[k] = value;
-            }
-            let pull = acting.on(owners[at]);
-            let acceleration: Vec2 = pull.a - motion.v * pull.drag.0;
-            (lanes.acceleration[0].0[k], lanes.acceleration[1].0[k]) = (acceleration.x, acceleration.y);
-            lanes.angular.0[k] = pull.alpha - motion.omega * pull.drag.1;
-            lanes.straight.0[k] = if motion.omega == 0.0 && pull.is_none() { 1.0 } else { -1.0 };
+    fn load<const W: usize>(bodies: &Bodies, acting: Acting, owners: &[Owner], first: usize) -> Lanes {
+        let at: [usize; LANES] = core::array::from_fn(|k| (first + k).min(owners.len() - 1));
+        let places = at.map(|at| {
+            let (frame, rect) = (&bodies.frame[owners[at].body()], &bodies.rects[at]);
+            Eight([frame.o.x, frame.o.y, frame.cos, frame.sin, rect.x_min, rect.x_max, rect.z_min, rect.z_max])
+        });
+        let motions = at.map(|at| {
+            let (motion, pull) = (&bodies.motion[owners[at].body()], acting.on(owners[at]));
+            let now: Vec2 = pull.a - motion.v * pull.drag.0;
+            let angular = pull.alpha - motion.omega * pull.drag.1;
+            let straight = if motion.omega == 0.0 && pull.is_none() { 1.0 } else { -1.0 };
+            Eight([motion.v.x, motion.v.y, motion.omega, now.x, now.y, angular, straight, 0.0])
+        });
+        let [x, z, cos, sin, x_min, x_max, z_min, z_max] = transpose::<W>(places);
+        let [vx, vz, omega, ax, az, angular, straight, _] = transpose::<W>(motions);
+        Lanes {
+            o: [x, z],
+            cos,
+            sin,
+            v: [vx, vz],
+            omega,
+            rect: [x_min, x_max, z_min, z_max],
+            acceleration: [ax, az],
+            angular,
+            straight,
         }
-        lanes
     }
 
     #[inline(always)]

@@ -12,6 +12,7 @@ mod needs;
 mod overlaps;
 mod random_scenes;
 mod refusals;
+mod threads;
 mod touches;
 mod worked;
 

@@ -227,3 +227,38 @@ fn every_count_has_a_label_of_its_own() {
     labels.dedup();
     assert_eq!(labels.len(), rows.len());
 }
+
+/// A stack that has come to rest does no work while it sleeps, stands where it would without sleep to the last bit, and wakes when
+/// something is done to it.
+#[test]
+fn what_sleeps_does_no_work_until_it_is_woken() {
+    let stack = |sleeping| {
+        let mut bodies = vec![body("floor", Kind::Fixed, 20.0, 2.0)];
+        bodies[0].at = (0.0, -1.0);
+        for k in 0..5 {
+            let mut brick = body(&format!("brick{k}"), Kind::Mobile, 2.0, 1.0);
+            brick.at = (0.1 * f64::from(k % 2), 0.5 + f64::from(k));
+            bodies.push(brick);
+        }
+        let mut scene = scene(bodies);
+        scene.settings.exchange = ExchangeRule::Impulse;
+        scene.settings.gravity = (0.0, -9.8);
+        scene.settings.sleeping = sleeping;
+        after(&scene, 60)
+    };
+    let (mut asleep, awake) = (stack(true), stack(false));
+    for id in asleep.ids() {
+        assert_eq!((asleep.position(id), asleep.angle(id)), (awake.position(id), awake.angle(id)));
+    }
+    let solved = |world: &World| (world.work().touches_solved, world.work().bounds);
+    let before = solved(&asleep);
+    (0..10).for_each(|_| asleep.step());
+    assert_eq!((solved(&asleep), asleep.time() > 1.1), (before, true));
+    let top = asleep.find("brick4").expect("it is there");
+    asleep.push(top, Vec2::new(300.0, 0.0)).expect("finite");
+    asleep.step();
+    assert!(solved(&asleep).0 > before.0 && asleep.velocity(top).x > 0.0, "a push wakes it");
+    asleep.set_velocity(top, Vec2::new(0.0, 1.0)).expect("finite");
+    (0..5).for_each(|_| asleep.step());
+    assert!(asleep.position(top).y > 4.5, "and so does a velocity");
+}

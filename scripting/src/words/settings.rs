@@ -116,8 +116,8 @@ pub(crate) mod module {
         set(&context, count, |settings, count| settings.substeps = Some(count))
     }
 
-    /// Whether bodies that have come to rest are put to sleep until something wakes them, with `exchange("impulse")`
-    /// and `motion("stepped")`: asleep they take no time. Default: false.
+    /// Whether a scene in which all has come to rest sleeps until a command wakes it, with `exchange("impulse")` and
+    /// `motion("stepped")`: asleep it takes no time, and nothing ends up elsewhere for it. Default: false.
     ///
     /// ```rhai
     /// sleeping(true);
