@@ -15,7 +15,7 @@ use crate::support::{choque, folder, stderr};
 const CLOSED: f64 = 1e-13;
 
 /// Bodies times iterations of one run.
-const BUDGET: u64 = 10_000;
+const BUDGET: u64 = 3_000;
 
 /// How far the books of a world are from closing, of what was booked and of what its bodies have each.
 fn gap(world: &World) -> f64 {

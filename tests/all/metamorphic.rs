@@ -12,7 +12,7 @@ use choque_engine::{BodyId, Extent, Rect, Scene, World};
 use choque_scripting::{Options, Overrides, Scenario, Step};
 
 /// Bodies times iterations of one run: a second or so for all scenes together.
-const BUDGET: u64 = 60_000;
+const BUDGET: u64 = 15_000;
 /// Fewer iterations than this would not let a large scene collide.
 const FEWEST: u64 = 30;
 

@@ -22,7 +22,7 @@ const A_FEW: f64 = 16.0;
 /// How long rounds go on.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Effort {
-    /// What gravity does in a sub-step \[m/s\].
+    /// What velocities are measured by: what gravity does in a sub-step, or where there is none how fast things are \[m/s\].
     pub(super) pulled: f64,
     /// Rounds at most.
     pub(super) most: u32,

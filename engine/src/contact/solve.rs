@@ -48,6 +48,8 @@ impl Contacts {
         self.fliers.set_out(&mut self.rows, &self.pulls, h);
         let fastest = self.fliers.fastest();
         let quiet = fastest <= QUIET * pulled;
+        // Where nothing pulls, what counts is how fast things are.
+        let scale = if pulled > 0.0 { pulled } else { fastest };
         let budget = if quiet { IN_QUIET } else { IN_MOTION };
         if quiet {
             self.fliers.renew(&mut self.rows);
@@ -57,12 +59,12 @@ impl Contacts {
         if fastest <= STILL * pulled && pulled > 0.0 {
             self.settle_touches(world, h, pulled, fastest);
         } else {
-            self.push_on(world, (h, pulled), &budget);
+            self.push_on(world, (h, scale), &budget);
         }
         // A jam has no solution: pushes grow without end, and do harm once it gives way.
         if self.fliers.gained(&self.rows, self.reach) {
             self.begin_afresh();
-            self.push_on(world, (h, pulled), &Budget { swept: FRESH_SWEEPS * self.blocks.count, ..budget });
+            self.push_on(world, (h, scale), &Budget { swept: FRESH_SWEEPS * self.blocks.count, ..budget });
             if self.fliers.gained(&self.rows, self.reach) {
                 self.begin_afresh();
                 self.sweep_touches(world, FRESH_SWEEPS);
@@ -70,13 +72,13 @@ impl Contacts {
         }
     }
 
-    /// Improves all touches of a scene that moves.
-    fn push_on(&mut self, world: &mut World, (h, pulled): (f64, f64), budget: &Budget) {
+    /// Improves all touches of a scene that moves, to the scale of velocities that count \[m/s\].
+    fn push_on(&mut self, world: &mut World, (h, scale): (f64, f64), budget: &Budget) {
         self.sweep_touches(world, (budget.swept / self.blocks.count).clamp(LEAST_SWEEPS, MOST_SWEEPS));
         self.spread(world, h);
         let most = self.few(budget);
         if most > 0 {
-            self.settle_for(world, Effort { pulled, most });
+            self.settle_for(world, Effort { pulled: scale, most });
         }
     }
 
