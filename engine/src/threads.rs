@@ -27,7 +27,7 @@ impl Threads {
         (0..parts).map(|part| (part * each).min(things)..((part + 1) * each).min(things)).collect()
     }
 
-    /// Does a task for every part, all but the first on threads of their own where the system has any to give.
+    /// Does a task for every part, all but the first on threads of their own.
     pub(crate) fn share<T: Send, F: FnOnce() -> T + Send>(tasks: Vec<F>) -> Vec<T> {
         let mut tasks = tasks.into_iter();
         let Some(first) = tasks.next() else { return Vec::new() };
