@@ -5,6 +5,9 @@ use core::ops::Range;
 /// More threads than this are of no use.
 const MOST: usize = 64;
 
+/// Fewer things than so many for a thread are not worth being shared out.
+pub(crate) const PER_THREAD: usize = 2048;
+
 /// How many threads an iteration may be shared by.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Threads(usize);

@@ -43,15 +43,8 @@ pub(super) struct Side {
 impl Side {
     #[inline(always)]
     pub(super) fn of<const W: usize>(bodies: &Bodies, acting: Acting, placed: &[(Placed, Owner); LANES]) -> Side {
-        let places = placed.map(|(Placed { frame, rect, .. }, _)| {
-            Eight([frame.o.x, frame.o.y, frame.cos, frame.sin, rect.x_min, rect.x_max, rect.z_min, rect.z_max])
-        });
-        let motions = placed.map(|(Placed { body, .. }, owner)| {
-            let (motion, pull) = (&bodies.motion[body], acting.on(owner));
-            let now = pull.a - motion.v * pull.drag.0;
-            let angular = pull.alpha - motion.omega * pull.drag.1;
-            Eight([motion.v.x, motion.v.y, motion.omega, now.x, now.y, angular, 0.0, 0.0])
-        });
+        let places = placed.map(|(Placed { frame, rect, .. }, _)| Acting::place(frame, rect));
+        let motions = placed.map(|(Placed { body, .. }, owner)| acting.motion(&bodies.motion[body], owner));
         let [x, z, cos, sin, x_min, x_max, z_min, z_max] = transpose::<W>(places);
         let [vx, vz, omega, ax, az, angular, ..] = transpose::<W>(motions);
         let (o, axis, low, high) = ([x, z], [cos, sin], [x_min, z_min], [x_max, z_max]);

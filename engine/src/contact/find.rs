@@ -7,12 +7,13 @@ use super::pulls::Pulls;
 use super::search::Search;
 use super::touch::Touch;
 use crate::advance::frame_before;
-use crate::bodies::Bodies;
+use crate::area::Rect;
+use crate::bodies::{Bodies, Motion};
 use crate::broad_phase::met::Owner;
 use crate::flight::Pull;
 use crate::frame::Frame;
-use crate::lanes::LANES;
-use crate::threads::Threads;
+use crate::lanes::{Eight, LANES};
+use crate::threads::{PER_THREAD, Threads};
 use crate::width::Work;
 use crate::world::World;
 
@@ -25,8 +26,24 @@ pub(super) struct Acting<'a> {
 }
 
 impl Acting<'_> {
+    /// Where a rectangle of a body is: a row, to become a lane.
     #[inline(always)]
-    pub(super) fn on(&self, owner: Owner) -> Pull {
+    pub(super) fn place(frame: &Frame, rect: &Rect) -> Eight {
+        Eight([frame.o.x, frame.o.y, frame.cos, frame.sin, rect.x_min, rect.x_max, rect.z_min, rect.z_max])
+    }
+
+    /// How its body moves: velocity, spin, what they change by now, and 1 where nothing turns or changes, else −1.
+    #[inline(always)]
+    pub(super) fn motion(&self, motion: &Motion, owner: Owner) -> Eight {
+        let pull = self.on(owner);
+        let now = pull.a - motion.v * pull.drag.0;
+        let angular = pull.alpha - motion.omega * pull.drag.1;
+        let straight = if motion.omega == 0.0 && pull.is_none() { 1.0 } else { -1.0 };
+        Eight([motion.v.x, motion.v.y, motion.omega, now.x, now.y, angular, straight, 0.0])
+    }
+
+    #[inline(always)]
+    fn on(&self, owner: Owner) -> Pull {
         match self.on_all {
             Some(pull) if owner.is_mobile() => pull,
             Some(_) => Pull::NONE,
@@ -70,9 +87,6 @@ impl Contacts {
         work.pairs_listed += self.touches.len() as u64;
     }
 }
-
-/// Fewer pairs than so many for a thread are not shared out.
-const PER_THREAD: usize = 2048;
 
 /// The first task finds what it finds right into the lists, the others into lists of their own, which are put behind in order.
 fn share<F>(tasks: Vec<F>, touches: &mut Vec<Touch>, apart: &mut Vec<(u32, u32)>)

@@ -104,10 +104,8 @@ pub(crate) struct Contacts {
     clear: Vec<u32>,
     /// How many touches there were when the part of the step began; those that join it come after them.
     found: usize,
-    /// Whether nothing moved in the step before and nothing has been done since; and whether all sleeps for that, so that a step
-    /// changes nothing.
+    /// Whether nothing moved in the step before and nothing has been done since: where sleeping is allowed, all sleeps.
     stood: bool,
-    asleep: bool,
     /// How far a fixed body reaches from its centre at most \[m\].
     reach: f64,
     /// What is left of an overlap after a step in which it may recover.
@@ -144,7 +142,6 @@ impl Contacts {
             clear: Vec::new(),
             found: 0,
             stood: false,
-            asleep: false,
             reach: (0..bodies.len())
                 .filter(|body| !bodies.is_mobile(*body))
                 .map(|body| bodies.reach(body))
@@ -156,7 +153,10 @@ impl Contacts {
 
     /// What decides how the world goes on, for its digest.
     pub(crate) fn words(&self) -> impl Iterator<Item = u64> {
-        self.touches.iter().flat_map(Touch::words).chain([u64::from(self.patience) << 1 | u64::from(self.asleep)])
+        self.touches
+            .iter()
+            .flat_map(Touch::words)
+            .chain([u64::from(self.patience) << 1 | u64::from(self.stood && self.plan.sleeping)])
     }
 
     /// The next hit to be told.
@@ -196,9 +196,7 @@ impl World {
         contacts.open_books(self, time - dt);
         if !contacts.touches.is_empty() {
             let h = dt / f64::from(substeps);
-            let drag = contacts.pulls.act().then(|| self.plan.flight.forces().1);
-            contacts.fliers.pace(drag, h);
-            contacts.fliers.begin(&contacts.rows, (&contacts.touches, &contacts.of_touch), 1.0);
+            contacts.begin_flights(self, h, 1.0);
             for k in 0..substeps {
                 contacts.gone = f64::from(k) * h;
                 contacts.substep(self, h);
@@ -251,9 +249,9 @@ impl Contacts {
         if self.touches.is_empty() {
             return;
         }
-        self.link_apart(world.bodies.len());
-        let fixed: Vec<u32> = self.fixed_apart(world).collect();
-        self.rows.fill(&world.bodies, &self.touches, fixed.into_iter(), &mut self.of_touch);
+        let Contacts { rows, touches, of_touch, apart, search, .. } = self;
+        apart.link(search, world.bodies.len());
+        rows.fill(&world.bodies, touches, apart.fixed(search, &world.bodies), of_touch);
         (self.dt, self.gone) = (dt, 0.0);
         self.keep = libm::exp(-RECOVERY * dt);
         self.found = self.touches.len();
@@ -275,6 +273,12 @@ impl Contacts {
         }
         let Contacts { blocks, touches, of_touch, pairs, rows, keep, band, .. } = self;
         blocks.fill((touches, of_touch), pairs.left_out(), rows, (*keep, *band));
+    }
+
+    /// Bodies are about to fly, over times of that length; contacts push so many times as hard as they did at the end of the last.
+    fn begin_flights(&mut self, world: &World, h: f64, times: f64) {
+        self.fliers.pace(self.pulls.act().then(|| world.plan.flight.forces().1), h);
+        self.fliers.begin(&self.rows, (&self.touches, &self.of_touch), times);
     }
 
     fn substep(&mut self, world: &mut World, h: f64) {

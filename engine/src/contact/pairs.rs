@@ -66,9 +66,8 @@ impl Contacts {
 
     /// Impacts of a pair within the sub-step; gives when the next is due.
     fn strike_pair(&mut self, world: &mut World, k: usize, h: f64) -> f64 {
-        let (row_a, row_b) = self.of_touch[k];
         for _ in 0..MOST_STRIKES {
-            let spent = self.fliers.spent[row_a as usize].max(self.fliers.spent[row_b as usize]);
+            let spent = self.ahead(k);
             let left = self.dt - self.gone - spent;
             if self.touches[k].met || !self.is_lonely(k) || !self.may_strike(k, left, h) {
                 return f64::INFINITY;

@@ -8,7 +8,7 @@ use crate::broad_phase::met::{Bounds, Met, Owner};
 use crate::detect::manifold::Placed;
 use crate::lanes::LANES;
 use crate::plan::BroadPhasePlan;
-use crate::threads::Threads;
+use crate::threads::{PER_THREAD, Threads};
 use crate::width::{self, Width};
 use crate::work::Work;
 use core::ops::Range;
@@ -27,9 +27,6 @@ pub(super) struct Search {
     near: Vec<(u32, u32)>,
     begins: Vec<u32>,
 }
-
-/// Fewer rectangles or cells than so many for a thread are not shared out.
-const PER_THREAD: usize = 2048;
 
 /// Fewer pairs than one for so many rectangles are sorted by comparing them.
 const SPARSE: usize = 8;
@@ -54,8 +51,7 @@ impl Search {
         grid.fill(bounds, owners);
         let grid = &*grid;
         let parts = threads.parts(grid.cells() as usize, 1, PER_THREAD);
-        met.resize_with(met.len().max(parts.len()), Met::default);
-        met.truncate(parts.len());
+        met.resize_with(parts.len(), Met::default);
         let tasks: Vec<_> = parts
             .into_iter()
             .zip(met.iter_mut())

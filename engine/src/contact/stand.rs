@@ -23,11 +23,11 @@ const NEARLY: f64 = 4.0;
 impl World {
     /// A whole step as one, if all stands still and goes on doing so; whether it does.
     pub(super) fn stand(&mut self, contacts: &mut Contacts) -> bool {
-        if contacts.asleep && self.pushes.is_empty() {
+        let stood = contacts.stood && self.pushes.is_empty();
+        if stood && contacts.plan.sleeping {
             return true;
         }
-        let stood = contacts.stood && self.pushes.is_empty();
-        (contacts.asleep, contacts.stood) = (false, false);
+        contacts.stood = false;
         let dt = self.plan.time_step;
         let pulled = self.plan.gravity().norm() * dt;
         let effort = Effort { pulled, most: ROUNDS };
@@ -49,7 +49,7 @@ impl World {
         let time = self.advances as f64 * dt;
         contacts.open_books(self, time);
         contacts.book_substep(self, dt);
-        let overlapped = contacts.blocks.are_overlapped();
+        let overlapped = !stood && contacts.blocks.are_overlapped();
         if overlapped {
             contacts.part_overlaps();
         }
@@ -57,7 +57,6 @@ impl World {
         self.fly_alone(contacts, dt);
         contacts.close_books(self, dt);
         contacts.stood = !overlapped && self.stands_still(0.0);
-        contacts.asleep = contacts.stood && contacts.plan.sleeping;
         true
     }
 
@@ -76,14 +75,13 @@ impl World {
 impl Contacts {
     /// Something has been done to a body: nothing sleeps any more.
     pub(crate) fn wake(&mut self) {
-        (self.asleep, self.stood) = (false, false);
+        self.stood = false;
     }
 
     /// Touches push as they did in the sub-steps of the step before, over the whole step.
     fn begin_standing(&mut self, world: &World, dt: f64) {
         let times = f64::from(self.plan.substeps);
-        self.fliers.pace(self.pulls.act().then(|| world.plan.flight.forces().1), dt);
-        self.fliers.begin(&self.rows, (&self.touches, &self.of_touch), times);
+        self.begin_flights(world, dt, times);
         self.blocks.scale_pushes(times);
         // What little still moves is to stop, not to come back.
         self.look(0, dt, 0.0);

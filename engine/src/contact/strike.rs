@@ -223,10 +223,16 @@ impl Contacts {
         [of(0, touch.a), of(1, touch.b)]
     }
 
+    /// How far into the sub-step a body of a touch has flown ahead \[s\].
+    pub(super) fn ahead(&self, k: usize) -> f64 {
+        let (a, b) = self.of_touch[k];
+        self.fliers.spent[a as usize].max(self.fliers.spent[b as usize])
+    }
+
     /// The rows of a touch as they are by now: a fixed body goes on as far into the sub-step as the other has flown ahead.
     fn rows_now(&self, k: usize) -> [Row; 2] {
         let (a, b) = self.of_touch[k];
-        let ahead = self.fliers.spent[a as usize].max(self.fliers.spent[b as usize]);
+        let ahead = self.ahead(k);
         [a, b].map(|row| {
             let fixed = self.rows.mobile_of(row).is_none();
             let row = self.rows.rows[row as usize];

@@ -2,7 +2,6 @@
 
 use super::find::Acting;
 use super::points::root;
-use crate::area::Vec2;
 use crate::bodies::Bodies;
 use crate::broad_phase::met::{Bounds, Owner};
 use crate::lanes::{Eight, LANES};
@@ -63,17 +62,8 @@ impl Lanes {
     #[inline(always)]
     fn load<const W: usize>(bodies: &Bodies, acting: Acting, owners: &[Owner], first: usize) -> Lanes {
         let at: [usize; LANES] = core::array::from_fn(|k| (first + k).min(owners.len() - 1));
-        let places = at.map(|at| {
-            let (frame, rect) = (&bodies.frame[owners[at].body()], &bodies.rects[at]);
-            Eight([frame.o.x, frame.o.y, frame.cos, frame.sin, rect.x_min, rect.x_max, rect.z_min, rect.z_max])
-        });
-        let motions = at.map(|at| {
-            let (motion, pull) = (&bodies.motion[owners[at].body()], acting.on(owners[at]));
-            let now: Vec2 = pull.a - motion.v * pull.drag.0;
-            let angular = pull.alpha - motion.omega * pull.drag.1;
-            let straight = if motion.omega == 0.0 && pull.is_none() { 1.0 } else { -1.0 };
-            Eight([motion.v.x, motion.v.y, motion.omega, now.x, now.y, angular, straight, 0.0])
-        });
+        let places = at.map(|at| Acting::place(&bodies.frame[owners[at].body()], &bodies.rects[at]));
+        let motions = at.map(|at| acting.motion(&bodies.motion[owners[at].body()], owners[at]));
         let [x, z, cos, sin, x_min, x_max, z_min, z_max] = transpose::<W>(places);
         let [vx, vz, omega, ax, az, angular, straight, _] = transpose::<W>(motions);
         Lanes {

@@ -7,8 +7,11 @@
 use super::Contacts;
 use super::flying::Fliers;
 use super::rows::TURN;
+use super::search::Search;
+use super::swept::ROOM;
 use super::touch::Touch;
 use crate::area::Vec2;
+use crate::bodies::Bodies;
 use crate::detect::overlap::widest_gap;
 use crate::flight::Path;
 use crate::world::World;
@@ -16,9 +19,6 @@ use crate::world::World;
 /// What contacts change of a body's motion beyond holding it against gravity, as a share of what that does in a sub-step,
 /// before it matters to those it is near.
 const DEVIATES: f64 = 1e-6;
-
-/// Room when a pair is looked at again, as a share of the smaller half sizes.
-const ROOM: f64 = 0.02;
 
 const NONE: u32 = u32::MAX;
 
@@ -43,36 +43,32 @@ impl Apart {
     pub(super) fn pairs(&self) -> &[(u32, u32)] {
         &self.pairs
     }
-}
 
-impl Contacts {
-    /// Links every body to its pairs that stay apart.
-    pub(super) fn link_apart(&mut self, bodies: usize) {
-        let Contacts { apart, search, .. } = self;
-        apart.woken.clear();
-        apart.woken.resize(apart.pairs.len(), false);
-        apart.last.clear();
-        apart.last.resize(bodies, NONE);
-        apart.before.clear();
-        for (k, pair) in apart.pairs.iter().enumerate() {
+    /// Links every body to its pairs.
+    pub(super) fn link(&mut self, search: &Search, bodies: usize) {
+        self.woken.clear();
+        self.woken.resize(self.pairs.len(), false);
+        self.last.clear();
+        self.last.resize(bodies, NONE);
+        self.before.clear();
+        for (k, pair) in self.pairs.iter().enumerate() {
             let mut before = [NONE; 2];
             for (side, rect) in [pair.0, pair.1].into_iter().enumerate() {
-                let last = &mut apart.last[search.body_of(rect)];
+                let last = &mut self.last[search.body_of(rect)];
                 before[side] = core::mem::replace(last, (2 * k + side) as u32);
             }
-            apart.before.push(before);
+            self.before.push(before);
         }
     }
 
     /// The fixed bodies among them.
-    pub(super) fn fixed_apart<'a>(&'a self, world: &'a World) -> impl Iterator<Item = u32> + use<'a> {
-        let rects = self.apart.pairs.iter().flat_map(|pair| [pair.0, pair.1]);
-        rects
-            .map(|rect| self.search.body_of(rect))
-            .filter(|body| !world.bodies.is_mobile(*body))
-            .map(|body| body as u32)
+    pub(super) fn fixed<'a>(&'a self, search: &'a Search, bodies: &'a Bodies) -> impl Iterator<Item = u32> {
+        let of_pairs = self.pairs.iter().flat_map(|pair| [pair.0, pair.1]).map(|rect| search.body_of(rect));
+        of_pairs.filter(|body| !bodies.is_mobile(*body)).map(|body| body as u32)
     }
+}
 
+impl Contacts {
     /// Wakes pairs of bodies that contacts have given another motion than they set out with; whether there were any.
     pub(super) fn wake_pushed(&mut self, world: &mut World, h: f64) -> bool {
         let touches = self.touches.len();
@@ -134,8 +130,8 @@ impl Contacts {
         let stood = |body: usize| world.bodies.frame[body];
         let Some(mut touch) = Touch::find(&world.bodies, (placed[0], placed[1]), margin, None, stood) else { return };
         self.apart.woken[pair] = true;
-        for (body, path) in bodies.into_iter().zip(&paths) {
-            self.join(world, body, path, under_way);
+        for body in bodies {
+            self.join(world, body, under_way);
         }
         let rows = self.rows.count_touch(&touch);
         touch.count_from(&self.rows.rows[rows.0 as usize].0, &self.rows.rows[rows.1 as usize].0);
@@ -179,20 +175,24 @@ impl Contacts {
 
     /// Where a body is by now in the part of the step and how it moves.
     fn path_of(&self, world: &World, body: usize) -> Path {
-        let (frame, pull) = (&world.bodies.frame[body], self.pulls.on(body));
+        let began = self.path_from_start(world, body);
         match self.rows.of(body as u32) {
-            Some(row) => Fliers::path(&self.rows.rows[row as usize], frame, pull),
-            None => Path { frame: *frame, motion: world.bodies.motion[body], pull }.after(self.gone),
+            Some(row) => Fliers::path(&self.rows.rows[row as usize], &began.frame, began.pull),
+            None => began.after(self.gone),
         }
     }
 
+    /// How a body flies from the start of the part if nothing touches it.
+    fn path_from_start(&self, world: &World, body: usize) -> Path {
+        Path { frame: world.bodies.frame[body], motion: world.bodies.motion[body], pull: self.pulls.on(body) }
+    }
+
     /// Gives a body that has none a row, where it has come to by now.
-    fn join(&mut self, world: &mut World, body: usize, path: &Path, under_way: Option<f64>) {
+    fn join(&mut self, world: &mut World, body: usize, under_way: Option<f64>) {
         if self.rows.of(body as u32).is_some() {
             return;
         }
-        let alone = Path { frame: world.bodies.frame[body], motion: world.bodies.motion[body], pull: path.pull };
-        let change = alone.change(self.gone);
+        let change = self.path_from_start(world, body).change(self.gone);
         let row = self.rows.add(&world.bodies, body);
         row.come(&change);
         let row = self.rows.rows.len() as u32 - 1;
