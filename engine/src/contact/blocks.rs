@@ -145,13 +145,6 @@ impl Blocks {
         }
     }
 
-    /// Whether some points are in each other.
-    pub(super) fn are_overlapped(&self) -> bool {
-        let deepest = |block: &Block| block.least[0].min(block.least[1]);
-        let deepest = self.blocks.iter().map(deepest).fold(Eight::ZERO, Eight::min);
-        (-deepest).greatest() > 0.0
-    }
-
     /// The pushes and friction of a touch.
     pub(super) fn pushes(&self, k: usize) -> ([f64; 2], f64) {
         self.lane(k)

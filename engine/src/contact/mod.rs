@@ -23,6 +23,7 @@ mod loads;
 mod look;
 mod meeting;
 mod pairs;
+mod part;
 #[cfg(test)]
 mod plain;
 mod points;
@@ -201,7 +202,7 @@ impl World {
                 contacts.gone = f64::from(k) * h;
                 contacts.substep(self, h);
             }
-            contacts.part_overlaps();
+            contacts.part_overlaps(self);
         }
         contacts.settle(self, 1.0);
         self.fly_alone(contacts, dt);

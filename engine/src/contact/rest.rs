@@ -11,7 +11,7 @@
 use super::blocks::Block;
 use super::rows::{INVERSE_MASS, INVERSE_MOMENT, Row, Rows, SPIN, VX, VZ};
 use super::sweep::{Arms, Lanes, Response, gather, push};
-use crate::lanes::{Eight, LANES};
+use crate::lanes::Eight;
 use crate::width::{Width, Work};
 
 /// How good is good enough: changes of velocity below this share of what gravity does in a sub-step; more where there
@@ -22,18 +22,16 @@ const A_FEW: f64 = 16.0;
 /// How long rounds go on.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Effort {
-    /// What velocities are measured by: what gravity does in a sub-step, or where there is none how fast things are \[m/s\].
-    pub(super) pulled: f64,
+    /// Changes of velocity up to this do not count \[m/s\].
+    pub(super) enough: f64,
     /// Rounds at most.
     pub(super) most: u32,
 }
 
-impl Effort {
-    /// Changes of velocity that do not count \[m/s\].
-    pub(super) fn settled(&self, touches: usize) -> f64 {
-        let many = (touches as f64 / A_FEW).max(1.0);
-        SETTLED * many * many * self.pulled
-    }
+/// Changes of velocity that do not count among so many touches, where gravity changes it by `pulled` \[m/s\].
+pub(super) fn settled(touches: usize, pulled: f64) -> f64 {
+    let many = (touches as f64 / A_FEW).max(1.0);
+    SETTLED * many * many * pulled
 }
 
 /// How far rounds have come.
@@ -73,7 +71,6 @@ const SHARED_MOMENT: usize = 4;
 impl Rest {
     /// Improves all touches until they are settled; gives how many rounds it took.
     pub(super) fn settle(&mut self, rows: &mut Rows, blocks: &mut [Block], width: Width, effort: Effort) -> Settled {
-        let settled = effort.settled(blocks.len() * LANES);
         self.begin(rows, blocks);
         let (mut momentum, mut before) = (1.0_f64, f64::INFINITY);
         let (mut rounds, mut left) = (0, 0.0);
@@ -87,12 +84,12 @@ impl Rest {
             let astray = back > 0.0 || change > before;
             (before, left) = (change, change);
             momentum = if astray { 1.0 } else { next };
-            if change <= settled {
+            if change <= effort.enough {
                 break;
             }
         }
         self.end(rows, blocks);
-        Settled { rounds, left, enough: left <= settled }
+        Settled { rounds, left, enough: left <= effort.enough }
     }
 
     fn begin(&mut self, rows: &Rows, blocks: &[Block]) {

@@ -2,8 +2,8 @@
 
 use super::look::{Look, Warm};
 use super::rest::{Effort, Settled};
-use super::sweep::{Part, Sweep};
-use super::{Contacts, flying, weights};
+use super::sweep::Sweep;
+use super::{Contacts, flying, rest, weights};
 use crate::lanes::LANES;
 use crate::world::World;
 
@@ -11,11 +11,19 @@ use crate::world::World;
 /// things lean on each other, more of it pays than where they tumble.
 struct Budget {
     swept: usize,
-    improved: u32,
+    improved: u64,
 }
 
 const IN_QUIET: Budget = Budget { swept: 16_000, improved: 8_000 };
 const IN_MOTION: Budget = Budget { swept: 4_000, improved: 2_000 };
+
+/// Where there are few touches they may all be improved until nothing is left to gain, at little cost: so many rounds times touches,
+/// cubed. A heavy body that falls on a heap, or a house of cards, is worth it.
+const THOROUGH: u64 = 20_000_000_000;
+
+/// Changes of velocity below this share of what gravity does in a sub-step, or where there is none of how fast things are, are not
+/// worth another round where things move.
+const GOOD: f64 = 1e-3;
 const LEAST_SWEEPS: usize = 2;
 const MOST_SWEEPS: usize = 16;
 
@@ -78,7 +86,7 @@ impl Contacts {
         self.spread(world, h);
         let most = self.few(budget);
         if most > 0 {
-            self.settle_for(world, Effort { pulled: scale, most });
+            self.settle_for(world, Effort { enough: GOOD * scale, most });
         }
     }
 
@@ -106,7 +114,8 @@ impl Contacts {
     /// Improves all touches of a scene that stands still together, for as long as it is worth it.
     fn settle_touches(&mut self, world: &mut World, h: f64, pulled: f64, fastest: f64) {
         let most = if fastest == 0.0 { PATIENCE } else { self.patience.max(self.few(&IN_QUIET)) };
-        let Settled { left, enough, .. } = self.settle_for(world, Effort { pulled, most: FIRST.min(most) });
+        let settled = rest::settled(self.touches.len(), pulled);
+        let Settled { left, enough, .. } = self.settle_for(world, Effort { enough: settled, most: FIRST.min(most) });
         if !enough {
             if left > UNBALANCED * pulled {
                 let pull = world.plan.gravity() * h;
@@ -115,7 +124,7 @@ impl Contacts {
                 self.fliers.renew(&mut self.rows);
                 self.blocks.renew(&self.touches);
             }
-            let more = self.settle_for(world, Effort { pulled, most });
+            let more = self.settle_for(world, Effort { enough: settled, most });
             self.patience =
                 if more.enough { (2 * self.patience).min(PATIENCE) } else { (self.patience / 2).max(FIRST) };
         }
@@ -123,7 +132,8 @@ impl Contacts {
 
     /// How many rounds are always worth it.
     fn few(&self, budget: &Budget) -> u32 {
-        (budget.improved / self.blocks.count as u32).min(PATIENCE)
+        let count = self.blocks.count as u64;
+        (budget.improved / count + THOROUGH / count.pow(3)).min(u64::from(PATIENCE)) as u32
     }
 
     pub(super) fn settle_for(&mut self, world: &mut World, effort: Effort) -> Settled {
@@ -140,12 +150,6 @@ impl Contacts {
         world.work.touches_solved += (sweeps * self.blocks.count) as u64;
     }
 
-    /// Bodies still deeper in each other than they may be by now are moved apart, once round.
-    pub(super) fn part_overlaps(&mut self) {
-        let (rows, blocks) = (&mut self.rows.rows[..], &self.blocks.blocks[..]);
-        self.width.run(Part { rows, blocks, band: self.band });
-    }
-
     /// What every point asks for in the sub-step, from that block on.
     pub(super) fn look(&mut self, from: usize, h: f64, pulled: f64) {
         let (rows, blocks) = (&self.rows.rows[..], &mut self.blocks.blocks[from..]);
@@ -153,12 +157,14 @@ impl Contacts {
     }
 
     /// A sweep over the blocks from that one on.
-    fn sweep(&mut self, from: usize, back: bool) {
+    pub(super) fn sweep(&mut self, from: usize, back: bool) {
+        let parts = !self.parts_to_the_end();
         let (rows, blocks, band) = (&mut self.rows.rows[..], &mut self.blocks.blocks[from..], self.band);
-        if self.plan.friction {
-            self.width.run(Sweep::<true> { rows, blocks, band, back });
-        } else {
-            self.width.run(Sweep::<false> { rows, blocks, band, back });
+        match (self.plan.friction, parts) {
+            (true, true) => self.width.run(Sweep::<true, true> { rows, blocks, band, back }),
+            (true, false) => self.width.run(Sweep::<true, false> { rows, blocks, band, back }),
+            (false, true) => self.width.run(Sweep::<false, true> { rows, blocks, band, back }),
+            (false, false) => self.width.run(Sweep::<false, false> { rows, blocks, band, back }),
         }
     }
 }

@@ -10,7 +10,7 @@
 //! With `sleeping(true)` a scene that has stood through a step sleeps until something is done to it: its steps cost nothing.
 
 use super::Contacts;
-use super::rest::Effort;
+use super::rest::{self, Effort};
 use crate::bodies::Motion;
 use crate::world::World;
 
@@ -30,8 +30,7 @@ impl World {
         contacts.stood = false;
         let dt = self.plan.time_step;
         let pulled = self.plan.gravity().norm() * dt;
-        let effort = Effort { pulled, most: ROUNDS };
-        let limit = NEARLY * effort.settled(contacts.touches.len());
+        let limit = NEARLY * rest::settled(contacts.touches.len(), pulled);
         if pulled == 0.0 || contacts.plan.substeps == 1 || !contacts.presses() || !self.stands_still(limit) {
             return false;
         }
@@ -43,20 +42,17 @@ impl World {
             }
             contacts.begin_standing(self, dt);
         }
-        if !contacts.balance(self, dt, effort) {
+        if !contacts.balance(self, dt, pulled) {
             return false;
         }
         let time = self.advances as f64 * dt;
         contacts.open_books(self, time);
         contacts.book_substep(self, dt);
-        let overlapped = !stood && contacts.blocks.are_overlapped();
-        if overlapped {
-            contacts.part_overlaps();
-        }
+        let parted = !stood && contacts.part_overlaps(self);
         contacts.settle(self, 1.0 / f64::from(contacts.plan.substeps));
         self.fly_alone(contacts, dt);
         contacts.close_books(self, dt);
-        contacts.stood = !overlapped && self.stands_still(0.0);
+        contacts.stood = !parted && self.stands_still(0.0);
         true
     }
 
@@ -88,11 +84,12 @@ impl Contacts {
     }
 
     /// Balances all forces over a step; whether they do and leave everything standing.
-    fn balance(&mut self, world: &mut World, dt: f64, effort: Effort) -> bool {
+    fn balance(&mut self, world: &mut World, dt: f64, pulled: f64) -> bool {
         self.fliers.set_out(&mut self.rows, &self.pulls, dt);
         self.fliers.renew(&mut self.rows);
-        let balanced = self.settle_for(world, effort).enough;
-        let stand = balanced && self.rows.are_slower_than(effort.settled(self.touches.len()));
+        let enough = rest::settled(self.touches.len(), pulled);
+        let balanced = self.settle_for(world, Effort { enough, most: ROUNDS }).enough;
+        let stand = balanced && self.rows.are_slower_than(enough);
         if stand {
             self.fliers.stand(&mut self.rows, dt);
         }

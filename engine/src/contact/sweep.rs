@@ -1,7 +1,7 @@
 //! A sweep over all touches: each is solved exactly, with the motions its bodies have by then (block Gauss–Seidel).
 //!
 //! A touch has two points and one friction between them. Where points are in each other, first the bodies are moved apart, by
-//! the least displacements weighted by mass; no velocity comes of it. Then friction is clamped to the cone of the pushes so far,
+//! the least displacements weighted by mass, unless that is done to the end by itself ([`super::part`]); no velocity comes of it. Then friction is clamped to the cone of the pushes so far,
 //! and the pushes are solved: u ≥ what the point asks ([`super::look`]), push ≥ 0, and one of the two exact. That 2×2
 //! complementarity problem is solved in closed form, all cases side by side and the right one picked.
 
@@ -14,7 +14,7 @@ use crate::width::{self, Work};
 const SAME: f64 = 1e-12;
 
 /// One sweep.
-pub(super) struct Sweep<'a, const FRICTION: bool> {
+pub(super) struct Sweep<'a, const FRICTION: bool, const PART: bool> {
     pub(super) rows: &'a mut [Row],
     pub(super) blocks: &'a mut [Block],
     /// Gaps and depths up to this are none \[m\].
@@ -23,7 +23,7 @@ pub(super) struct Sweep<'a, const FRICTION: bool> {
     pub(super) back: bool,
 }
 
-impl<const FRICTION: bool> Work for Sweep<'_, FRICTION> {
+impl<const FRICTION: bool, const PART: bool> Work for Sweep<'_, FRICTION, PART> {
     type Out = ();
 
     #[inline(always)]
@@ -34,9 +34,10 @@ impl<const FRICTION: bool> Work for Sweep<'_, FRICTION> {
             let (mut a, mut b) = (gather::<W>(self.rows, &block.row_a), gather::<W>(self.rows, &block.row_b));
             let arms = Arms::of(block, &a, &b);
             let response = Response::of(&arms, &a, &b);
-            let gap = gaps(block, &a, &b);
-            let band = Eight::all(self.band);
-            part_overlap(block, &arms, (&mut a, &mut b), &response, gap, band);
+            if PART {
+                let (gap, band) = (gaps(block, &a, &b), Eight::all(self.band));
+                part_overlap(block, &arms, (&mut a, &mut b), &response, gap, band);
+            }
             press(block, &arms, (&mut a, &mut b), &response);
             if FRICTION {
                 rub(block, &arms, (&mut a, &mut b));

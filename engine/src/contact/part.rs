@@ -1,0 +1,119 @@
+//! Bodies that are in each other are moved apart; no velocity comes of it.
+//!
+//! The least displacements, weighted by mass, with which no point is deeper than it may be by the end of the step: the same problem as
+//! that of velocities, so the same sweeps solve it, with displacements in the place of velocities. Friction holds there too:
+//! what leans on a face does not slip off because something in the heap is lifted. Among many touches that would cost too much:
+//! there every sweep over velocities moves apart what it meets ([`super::sweep`]).
+
+use super::Contacts;
+use super::blocks::Block;
+use super::rest::Effort;
+use super::rows::{Row, SPIN, TURN, VX, VZ, X, Z};
+use super::solve::PATIENCE;
+use super::sweep::{Part, gaps, gather};
+use crate::bodies::Motion;
+use crate::lanes::Eight;
+use crate::width::Work;
+use crate::world::World;
+
+/// Up to so many touches are few.
+const FEW: usize = 600;
+
+/// Sweeps in a step, and rounds after that: so many times touches, cubed, for where there are few it is worth being done to the end.
+const SWEEPS: usize = 6;
+const ROUNDS: u64 = 2_000_000_000;
+
+/// Displacements below this share of the deepest are not worth another round.
+const GOOD: f64 = 1e-3;
+
+impl Contacts {
+    /// Moves bodies apart that are deeper in each other than they may be by now; whether any were.
+    pub(super) fn part_overlaps(&mut self, world: &mut World) -> bool {
+        let (rows, blocks) = (&self.rows.rows[..], &self.blocks.blocks[..]);
+        let excess = self.width.run(Excess { rows, blocks });
+        if excess <= self.band {
+            return false;
+        }
+        if self.parts_to_the_end() {
+            self.part_to_the_end(world, excess);
+        } else {
+            let (rows, blocks) = (&mut self.rows.rows[..], &self.blocks.blocks[..]);
+            self.width.run(Part { rows, blocks, band: self.band });
+        }
+        true
+    }
+
+    /// Whether there are so few touches that they are moved apart to the end, by themselves.
+    pub(super) fn parts_to_the_end(&self) -> bool {
+        self.blocks.count <= FEW
+    }
+
+    fn part_to_the_end(&mut self, world: &mut World, excess: f64) {
+        let pushes: Vec<_> = self.blocks.blocks.iter().map(|block| (block.push, block.grip)).collect();
+        let motions: Vec<Motion> = self.rows.rows.iter().map(Row::motion).collect();
+        self.blocks.forget_pushes();
+        self.rows.rows.iter_mut().for_each(|row| row.set_motion(Motion::default()));
+        let (rows, blocks) = (&self.rows.rows[..], &mut self.blocks.blocks[..]);
+        self.width.run(Ask { rows, blocks, band: self.band });
+        for sweep in 0..SWEEPS {
+            self.sweep(0, sweep % 2 == 1);
+        }
+        let most = (ROUNDS / (self.blocks.count as u64).pow(3)).min(u64::from(PATIENCE)) as u32;
+        world.work.touches_solved += (SWEEPS * self.blocks.count) as u64;
+        self.settle_for(world, Effort { enough: (GOOD * excess).max(self.band), most });
+        for (row, motion) in self.rows.rows.iter_mut().zip(motions) {
+            for (place, way) in [(X, VX), (Z, VZ), (TURN, SPIN)] {
+                row.0[place] += row.0[way];
+            }
+            row.set_motion(motion);
+        }
+        for (block, (push, grip)) in self.blocks.blocks.iter_mut().zip(pushes) {
+            (block.push, block.grip) = (push, grip);
+        }
+    }
+}
+
+/// How much deeper than it may be is the deepest point \[m\].
+struct Excess<'a> {
+    rows: &'a [Row],
+    blocks: &'a [Block],
+}
+
+impl Work for Excess<'_> {
+    type Out = f64;
+
+    #[inline(always)]
+    fn run<const W: usize>(self) -> f64 {
+        let mut most = Eight::ZERO;
+        for block in self.blocks {
+            let (a, b) = (gather::<W>(self.rows, &block.row_a), gather::<W>(self.rows, &block.row_b));
+            let gap = gaps(block, &a, &b);
+            most = most.max(block.least[0] - gap[0]).max(block.least[1] - gap[1]);
+        }
+        most.greatest()
+    }
+}
+
+/// How far every point is to be moved apart at least: by less than nothing where it has room.
+struct Ask<'a> {
+    rows: &'a [Row],
+    blocks: &'a mut [Block],
+    /// Depths up to this are none \[m\].
+    band: f64,
+}
+
+impl Work for Ask<'_> {
+    type Out = ();
+
+    #[inline(always)]
+    fn run<const W: usize>(self) {
+        let band = Eight::all(self.band);
+        for block in self.blocks {
+            let (a, b) = (gather::<W>(self.rows, &block.row_a), gather::<W>(self.rows, &block.row_b));
+            let gap = gaps(block, &a, &b);
+            for k in 0..2 {
+                block.asked[k] = block.least[k] - gap[k] - band;
+            }
+        }
+    }
+}
