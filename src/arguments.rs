@@ -109,6 +109,12 @@ pub(crate) fn threads(text: &str) -> Result<usize, String> {
     threads.ok_or_else(|| "it must be a whole number, 1 or more".to_owned())
 }
 
+/// Every how many iterations.
+pub(crate) fn every(text: &str) -> Result<u64, String> {
+    let every = text.trim().parse().ok().filter(|every| *every > 0);
+    every.ok_or_else(|| "it must be a whole number, 1 or more".to_owned())
+}
+
 /// A finite number, also as a quotient: `1/120`.
 fn number(text: &str) -> Result<f64, String> {
     let read = |part: &str| part.trim().parse::<f64>().map_err(|_| format!("`{}` is not a number", part.trim()));

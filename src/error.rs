@@ -7,6 +7,8 @@ use std::process::ExitCode;
 use choque_scripting::Diagnostic;
 use thiserror::Error;
 
+use crate::recording::Broken;
+
 /// What a call that was carried out found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
@@ -43,6 +45,14 @@ pub enum Error {
         path: PathBuf,
         /// Why not.
         source: io::Error,
+    },
+    /// A recording that is none, or no longer whole.
+    #[error("error: cannot read {}: {broken}\n  = help: record the run again: choque run FILE --record {}", .path.display(), .path.display())]
+    Recording {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it, and where.
+        broken: Broken,
     },
     /// The call itself asks for something that cannot be.
     #[error("error: {message}\n  = help: {hint}")]

@@ -5,6 +5,7 @@
 //! | calls and flags | [`cli`], [`arguments`] |
 //! | a scenario played to its end, and what is told of it | [`play`], [`outcome`], [`books`], [`readings`], [`notable`] |
 //! | what each call does | [`run`], [`check`], [`explain`], [`export`], [`words`], [`init`], [`report`] |
+//! | a run kept to the last bit | [`recording`] |
 //! | how it is printed | [`output`], [`plot`], [`written`], [`terminal`], [`progress`], [`clock`] |
 //! | one test per scenario, pinned by a snapshot | [`harness`] |
 //!
@@ -27,6 +28,7 @@ pub mod play;
 pub mod plot;
 pub mod progress;
 pub mod readings;
+pub mod recording;
 pub mod report;
 pub mod run;
 pub mod terminal;

@@ -57,5 +57,5 @@ pub use callbacks::Callbacks;
 pub use error::Diagnostic;
 pub use expectation::Expectation;
 pub use options::{Options, Output, Overrides};
-pub use run::{Run, Step};
+pub use run::{Moment, Run, Step};
 pub use scenario::Scenario;

@@ -18,6 +18,8 @@ pub(crate) struct Library {
     roots: Vec<PathBuf>,
     /// By the name that errors show.
     texts: RefCell<BTreeMap<String, String>>,
+    /// The models, for the record.
+    models: RefCell<BTreeMap<String, String>>,
 }
 
 /// A file that was found.
@@ -46,7 +48,11 @@ impl Library {
         };
         let library = library.map(Path::to_owned).or_else(|| scenarios_above(&folder));
         let library = library.filter(|library| *library != folder);
-        Library { roots: std::iter::once(folder).chain(library).collect(), texts: RefCell::default() }
+        Library {
+            roots: std::iter::once(folder).chain(library).collect(),
+            texts: RefCell::default(),
+            models: RefCell::default(),
+        }
     }
 
     /// Looks a file up; the extension may be left out of the path.
@@ -94,6 +100,17 @@ impl Library {
     /// Keeps a script's text, for errors to show its lines.
     pub(crate) fn keep(&self, name: &str, text: &str) {
         self.texts.borrow_mut().insert(name.to_owned(), text.to_owned());
+    }
+
+    /// Keeps a model's text, for the record.
+    pub(crate) fn keep_model(&self, name: &str, text: String) {
+        self.models.borrow_mut().insert(name.to_owned(), text);
+    }
+
+    /// The name and text of every script and every model read so far.
+    pub(crate) fn texts_read(&self) -> Vec<(String, String)> {
+        let all = |texts: &RefCell<BTreeMap<String, String>>| texts.borrow().clone();
+        all(&self.texts).into_iter().chain(all(&self.models)).collect()
     }
 
     /// The text of every script read so far, one after the other.

@@ -18,6 +18,8 @@ use crate::script::Script;
 pub struct Scenario {
     file: PathBuf,
     text: String,
+    /// What it read beyond its own text.
+    others: Vec<(String, String)>,
     options: Options,
     name: String,
     scene: Scene,
@@ -46,15 +48,15 @@ impl Scenario {
             _ => return Err(unknown_kind(file)),
         };
         let text = read_text(file, file)?;
-        let (source, scene, callbacks) = if is_script {
+        let (source, scene, callbacks, others) = if is_script {
             let (script, scene) = Script::prepare(file, &text, options)?;
-            let callbacks = script.callbacks;
-            (Source::Script(Box::new(RefCell::new(Some(script)))), scene, callbacks)
+            let (callbacks, others) = (script.callbacks, script.texts_read());
+            (Source::Script(Box::new(RefCell::new(Some(script)))), scene, callbacks, others)
         } else {
-            (Source::Plain, plain::read(file, &text, options)?, Callbacks::default())
+            (Source::Plain, plain::read(file, &text, options)?, Callbacks::default(), Vec::new())
         };
         let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        Ok(Scenario { file: file.to_owned(), text, options: options.clone(), name, scene, callbacks, source })
+        Ok(Scenario { file: file.to_owned(), text, others, options: options.clone(), name, scene, callbacks, source })
     }
 
     /// The scene, with every `--set` and override applied.
@@ -78,6 +80,21 @@ impl Scenario {
     #[must_use]
     pub fn title(&self) -> String {
         if self.scene.title.is_empty() { self.name.clone() } else { self.scene.title.clone() }
+    }
+
+    /// How it was loaded.
+    #[must_use]
+    pub fn options(&self) -> &Options {
+        &self.options
+    }
+
+    /// The texts it was made from: the script or scene first, then what it imported and the models it read, each with its
+    /// name as errors show it.
+    #[must_use]
+    pub fn sources(&self) -> Vec<(String, String)> {
+        let name = self.file.display().to_string();
+        let others = self.others.iter().filter(|(other, _)| *other != name).cloned();
+        std::iter::once((name.clone(), self.text.clone())).chain(others).collect()
     }
 
     /// Which callbacks and expectations it has.

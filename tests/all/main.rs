@@ -8,6 +8,7 @@ mod harness;
 mod ledger;
 mod metamorphic;
 mod project;
+mod recording;
 mod report;
 mod snapshots;
 mod stability;
