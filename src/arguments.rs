@@ -109,6 +109,11 @@ pub(crate) fn threads(text: &str) -> Result<usize, String> {
     threads.ok_or_else(|| "it must be a whole number, 1 or more".to_owned())
 }
 
+/// A time [s], not before the start.
+pub(crate) fn time(text: &str) -> Result<f64, String> {
+    check::not_negative("it", number(text)?).map_err(|bad| bad.to_string())
+}
+
 /// Every how many iterations.
 pub(crate) fn every(text: &str) -> Result<u64, String> {
     let every = text.trim().parse().ok().filter(|every| *every > 0);

@@ -7,9 +7,10 @@ use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
 
 use crate::arguments::{ScenarioArguments, threads};
+use crate::render::RenderArguments;
 use crate::report::ReportArguments;
 use crate::run::RunArguments;
-use crate::{Error, Verdict, check, explain, export, init, report, run, terminal, words};
+use crate::{Error, Verdict, check, explain, export, init, render, report, run, terminal, words};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -65,6 +66,13 @@ Examples:
   choque report pile.rhai --quick -o measured
   choque report gas.rhai --reference known.csv")]
     Report(ReportArguments),
+    /// Draw a run: one moment as SVG or PNG, all of it as a GIF or a page that plays it
+    #[command(after_help = "\
+Examples:
+  choque render scenarios/blades/spinning_blade.rhai -o blade.svg
+  choque render pile.rhai --set push=12 --at 1.5 -o pile.png
+  choque render run.choque -o run.gif --width 640")]
+    Render(RenderArguments),
     /// Write a scenario's scene as plain data, without callbacks
     #[command(after_help = "\
 Examples:
@@ -132,6 +140,7 @@ impl Call {
             Call::Check { files, scenario } => check::check(files, &scenario.options()),
             Call::Explain { file, threads, scenario } => explain::explain(file, *threads, &scenario.options()),
             Call::Report(arguments) => report::report(arguments),
+            Call::Render(arguments) => render::render(arguments),
             Call::Export { file, output, scenario } => export::export(file, output.as_deref(), &scenario.options()),
             Call::Words { name, definitions } => words::words(name.as_deref(), definitions.as_deref()),
             Call::Init { directory, choque_path } => init::init(directory, choque_path.as_deref()),

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | calls and flags | [`cli`], [`arguments`] |
 //! | a scenario played to its end, and what is told of it | [`play`], [`outcome`], [`books`], [`readings`], [`notable`] |
-//! | what each call does | [`run`], [`check`], [`explain`], [`export`], [`words`], [`init`], [`report`] |
+//! | what each call does | [`run`], [`check`], [`explain`], [`export`], [`words`], [`init`], [`report`], [`render`] |
 //! | a run kept to the last bit | [`recording`] |
 //! | how it is printed | [`output`], [`plot`], [`written`], [`terminal`], [`progress`], [`clock`] |
 //! | one test per scenario, pinned by a snapshot | [`harness`] |
@@ -25,10 +25,12 @@ pub mod notable;
 pub mod outcome;
 pub mod output;
 pub mod play;
+pub mod player;
 pub mod plot;
 pub mod progress;
 pub mod readings;
 pub mod recording;
+pub mod render;
 pub mod report;
 pub mod run;
 pub mod terminal;

@@ -118,7 +118,7 @@ fn position(scale: Scale, number: f64) -> Option<f64> {
 }
 
 /// 1, 2 or 5 times a power of ten, so that a length holds a handful.
-fn nice_step(length: f64) -> f64 {
+pub(crate) fn nice_step(length: f64) -> f64 {
     let raw = length / 5.0;
     let decade = libm::pow(10.0, libm::floor(libm::log10(raw)));
     let lead = raw / decade;

@@ -12,7 +12,7 @@ pub mod axis;
 pub mod drawing;
 pub mod figure;
 pub mod glyphs;
-mod labels;
+pub(crate) mod labels;
 pub mod lettering;
 pub mod palette;
 pub mod raster;

@@ -18,6 +18,13 @@ pub const GRID: Colour = [228, 228, 228];
 const COLOURS: [Colour; 6] =
     [[0, 114, 178], [213, 94, 0], [0, 158, 115], [204, 121, 167], [86, 180, 233], [230, 159, 0]];
 
+/// A colour let down with the page's: all of it at 1, none at 0.
+#[must_use]
+pub fn tint(colour: Colour, strength: f64) -> Colour {
+    let mixed = |i: usize| f64::from(PAPER[i]) + (f64::from(colour[i]) - f64::from(PAPER[i])) * strength;
+    [0, 1, 2].map(|i| mixed(i).round() as u8)
+}
+
 const DASHES: [&[f64]; 6] = [&[], &[7.0, 4.0], &[1.5, 4.0], &[8.0, 4.0, 1.5, 4.0], &[3.0, 3.0], &[12.0, 4.0]];
 
 /// How one curve looks: each number has a colour, a dash and a marker of its own.
