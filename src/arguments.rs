@@ -94,11 +94,11 @@ fn choice<T: Clone + Send + Sync + 'static>(
     PossibleValuesParser::new(words).try_map(move |word| from_word(&word).ok_or("not one of the words above"))
 }
 
-fn count(text: &str) -> Result<u64, String> {
+pub(crate) fn count(text: &str) -> Result<u64, String> {
     text.trim().parse().map_err(|_| "it must be a whole number, 0 or more".to_owned())
 }
 
-fn substeps(text: &str) -> Result<u32, String> {
+pub(crate) fn substeps(text: &str) -> Result<u32, String> {
     let count = text.trim().parse().ok().and_then(|count| check::substeps("it", count).ok());
     count.ok_or_else(|| "it must be a whole number between 1 and 1000".to_owned())
 }
@@ -121,7 +121,7 @@ pub(crate) fn every(text: &str) -> Result<u64, String> {
 }
 
 /// A finite number, also as a quotient: `1/120`.
-fn number(text: &str) -> Result<f64, String> {
+pub(crate) fn number(text: &str) -> Result<f64, String> {
     let read = |part: &str| part.trim().parse::<f64>().map_err(|_| format!("`{}` is not a number", part.trim()));
     let value = match text.split_once('/') {
         Some((above, below)) => read(above)? / read(below)?,

@@ -7,10 +7,11 @@ use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
 
 use crate::arguments::{ScenarioArguments, threads};
+use crate::diff::DiffArguments;
 use crate::render::RenderArguments;
 use crate::report::ReportArguments;
 use crate::run::RunArguments;
-use crate::{Error, Verdict, check, explain, export, init, render, report, run, terminal, words};
+use crate::{Error, Verdict, check, diff, explain, export, init, render, report, run, terminal, words};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -73,6 +74,16 @@ Examples:
   choque render pile.rhai --set push=12 --at 1.5 -o pile.png
   choque render run.choque -o run.gif --width 640")]
     Render(RenderArguments),
+    /// Say where two runs part: in which iteration, which stage, which body, by how much, and how that grew
+    #[command(after_help = "\
+Examples:
+  choque diff pile.rhai --set-b mu_l=0.9                one script, two settings
+  choque diff pile.rhai --set-b motion=continuous
+  choque diff before.choque after.choque -o diff.html   two versions of the program
+  choque diff scenarios/pile.rhai --snapshot            a script and what pins it
+
+Exit codes: 0 the same to the last bit, 1 they differ, 2 the input or the call is wrong.")]
+    Diff(DiffArguments),
     /// Write a scenario's scene as plain data, without callbacks
     #[command(after_help = "\
 Examples:
@@ -141,6 +152,7 @@ impl Call {
             Call::Explain { file, threads, scenario } => explain::explain(file, *threads, &scenario.options()),
             Call::Report(arguments) => report::report(arguments),
             Call::Render(arguments) => render::render(arguments),
+            Call::Diff(arguments) => diff::diff(arguments),
             Call::Export { file, output, scenario } => export::export(file, output.as_deref(), &scenario.options()),
             Call::Words { name, definitions } => words::words(name.as_deref(), definitions.as_deref()),
             Call::Init { directory, choque_path } => init::init(directory, choque_path.as_deref()),

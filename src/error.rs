@@ -16,6 +16,8 @@ pub enum Verdict {
     Holds,
     /// An expectation failed: exit code 1.
     ExpectationFailed,
+    /// Two runs are not the same: exit code 1.
+    Differ,
     /// An input is bad, and that has been told already: exit code 2.
     BadInput,
 }
@@ -24,7 +26,7 @@ impl From<Verdict> for ExitCode {
     fn from(verdict: Verdict) -> Self {
         ExitCode::from(match verdict {
             Verdict::Holds => 0,
-            Verdict::ExpectationFailed => 1,
+            Verdict::ExpectationFailed | Verdict::Differ => 1,
             Verdict::BadInput => 2,
         })
     }

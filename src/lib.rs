@@ -4,7 +4,7 @@
 //! |---|---|
 //! | calls and flags | [`cli`], [`arguments`] |
 //! | a scenario played to its end, and what is told of it | [`play`], [`outcome`], [`books`], [`readings`], [`notable`] |
-//! | what each call does | [`run`], [`check`], [`explain`], [`export`], [`words`], [`init`], [`report`], [`render`] |
+//! | what each call does | [`run`], [`check`], [`explain`], [`export`], [`words`], [`init`], [`report`], [`render`], [`diff`](mod@diff) |
 //! | a run kept to the last bit | [`recording`] |
 //! | how it is printed | [`output`], [`plot`], [`written`], [`terminal`], [`progress`], [`clock`] |
 //! | one test per scenario, pinned by a snapshot | [`harness`] |
@@ -16,6 +16,7 @@ pub mod books;
 pub mod check;
 pub mod cli;
 pub mod clock;
+pub mod diff;
 pub mod error;
 pub mod explain;
 pub mod export;

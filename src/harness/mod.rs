@@ -31,7 +31,9 @@ use libtest_mimic::{Arguments, Failed, Trial};
 pub use crate::harness_main as main;
 pub use difference::in_words;
 pub use discover::{Case, cases, unreferenced};
+pub(crate) use pin::read as read_snapshot;
 pub use record::record;
+pub(crate) use snapshot::rounded;
 pub use snapshot::{BodyRow, Checkpoint, ExtremeRow, MeetingRow, Snapshot, Totals};
 
 /// Asserts a snapshot of that name and body. The macro makes one in the test's own crate, because insta takes the

@@ -83,7 +83,7 @@ fn words(case: &Case, new: &Snapshot) -> Option<String> {
     }
 }
 
-fn read(path: &Path) -> Result<Snapshot, String> {
+pub(crate) fn read(path: &Path) -> Result<Snapshot, String> {
     let file = insta::Snapshot::from_file(path).map_err(|error| error.to_string())?;
     let text = file.as_text().ok_or("it is no text")?.to_string();
     Snapshot::from_text(&text).map_err(|error| error.to_string())
