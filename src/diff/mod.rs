@@ -89,11 +89,8 @@ fn against_snapshot(arguments: &DiffArguments, run: &Side, snapshot: &Path) -> R
     let recording = run.recording()?;
     let (found, kept) = pinned::against(snapshot, &run.name, &recording)?;
     terminal::answer(&found.text)?;
-    match (&arguments.output, found.iteration) {
-        (Some(path), Some(iteration)) => {
-            write(path, &page(["snapshot", &run.name], kept.as_ref(), &recording, iteration)?)?
-        }
-        _ => {}
+    if let (Some(path), Some(iteration)) = (&arguments.output, found.iteration) {
+        write(path, &page(["snapshot", &run.name], kept.as_ref(), &recording, iteration)?)?;
     }
     Ok(if found.same { Verdict::Holds } else { Verdict::Differ })
 }

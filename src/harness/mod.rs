@@ -15,7 +15,11 @@
 //! The tests understand the flags of Rust's own (a filter, `--list`, `--exact`, `--test-threads` …), so `cargo test`,
 //! `cargo nextest run` and `cargo insta test --review` all work; environment variables of insta mean what they always
 //! mean, and where `CI` is set nothing is written.
+//!
+//! A test that fails says where the run and its snapshot part; a recording kept beside the snapshot (`run --record
+//! snapshots/….choque`) lets it name the stage. Where `CHOQUE_ARTIFACTS` names a folder, recordings and a page are left there.
 
+mod artifacts;
 mod difference;
 mod discover;
 mod pin;

@@ -8,7 +8,7 @@ use std::sync::{Mutex, Once, PoisonError};
 
 use super::discover::Case;
 use super::snapshot::Snapshot;
-use super::{Assert, in_words};
+use super::{Assert, artifacts, in_words};
 use crate::output::numbers::{counted, duration};
 use crate::output::text::failure;
 
@@ -22,7 +22,10 @@ static TELLING: Mutex<()> = Mutex::new(());
 pub(super) fn pin(case: &Case, new: &Snapshot, assert: Assert) -> Result<(), String> {
     let body = new.to_text().map_err(|error| error.to_string())?;
     let broken = broken_expectations(new);
-    let moved = words(case, new);
+    let moved = words(case, new).map(|words| {
+        let parted = case.snapshot.is_file().then(|| artifacts::parted(case)).flatten();
+        parted.map_or(words.clone(), |parted| format!("{words}\n\n{parted}"))
+    });
     let _telling = TELLING.lock().unwrap_or_else(PoisonError::into_inner);
     for words in broken.iter().chain(&moved) {
         println!("\n{}: {words}", case.name());

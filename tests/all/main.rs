@@ -3,12 +3,14 @@
 
 mod command;
 mod contact;
+mod diff;
 mod exact;
 mod harness;
 mod ledger;
 mod metamorphic;
 mod project;
 mod recording;
+mod render;
 mod report;
 mod snapshots;
 mod stability;
