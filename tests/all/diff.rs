@@ -7,7 +7,7 @@ use choque_scripting::{Options, Overrides, Scenario};
 
 use crate::support::{choque, folder, stderr, stdout, write};
 
-/// Meets in iteration 24; what may differ can be set.
+/// Two bodies meet; what may differ can be set.
 const MEETING: &str = r#"
 time_step(1.0 / 64); steps(60); mu_l(0.9);
 gravity(0, param("pull", 0));
@@ -90,8 +90,8 @@ fn an_advance_that_differs_is_named() {
 
 #[test]
 fn a_detection_that_differs_is_named() {
-    let crossed = "time_step(1.0 / 64); steps(40); mobile(\"bar\").rect(6, 0.5).at(0, 2).velocity(0, -3);
-        mobile(\"other\").rect(0.5, 6).at(0, -1.9).angle(0.1);";
+    let crossed = "time_step(1.0 / 64); steps(40); mobile(\"bar\").rect(6, 0.5).at(0, 0.3).velocity(0, -3);
+        mobile(\"other\").rect(0.5, 6).at(0, 0);";
     let with = |detection| Options {
         overrides: Overrides { detection: Some(detection), ..Overrides::default() },
         ..Options::default()
@@ -103,14 +103,14 @@ fn a_detection_that_differs_is_named() {
 
 #[test]
 fn a_relocation_that_differs_is_named() {
-    let (found, run) = check([&[], &[("epsilon", 0.002)]], Stage::Relocate, "a", ("x", None));
+    let (found, run) = check([&[], &[("epsilon", 0.002)]], Stage::Relocate, "b", ("x", None));
     assert_eq!(found.iteration, first_hit(&run));
     assert_eq!(names(&run, &found.pair.expect("a pair")), ["a", "b"]);
 }
 
 #[test]
 fn an_exchange_that_differs_is_named() {
-    let (found, run) = check([&[], &[("mu_l", 0.8)]], Stage::Exchange, "a", ("vx", None));
+    let (found, run) = check([&[], &[("mu_l", 0.8)]], Stage::Exchange, "b", ("vx", None));
     assert_eq!(found.iteration, first_hit(&run));
     assert_eq!(names(&run, &found.pair.expect("a pair")), ["a", "b"]);
 }
@@ -153,7 +153,7 @@ fn the_command_says_where_and_exits_with_what_it_found() {
         let parted = call(words);
         assert_eq!(parted.status.code(), Some(1), "{}", stderr(&parted));
         let said = stdout(&parted);
-        assert!(said.contains("stage exchange of a – b: a") && said.contains("how it grew"), "{said}");
+        assert!(said.contains("stage exchange of a – b: b") && said.contains("how it grew"), "{said}");
         assert!(said.contains("mu_l: 0.9 against 0.8"), "{said}");
     }
     for words in [
@@ -184,5 +184,5 @@ fn a_run_is_compared_with_its_snapshot() {
     // A recording kept beside the snapshot names the stage.
     assert_eq!(call("run scenarios/one.rhai --record snapshots/one.choque").status.code(), Some(0));
     let parted = call("diff scenarios/one.rhai snapshots/one.snap --set mu_l=0.5");
-    assert!(stdout(&parted).contains("stage exchange of a – b: a"), "{}", stdout(&parted));
+    assert!(stdout(&parted).contains("stage exchange of a – b: b"), "{}", stdout(&parted));
 }

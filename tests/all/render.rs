@@ -36,7 +36,8 @@ fn a_run_becomes_what_the_extension_says() {
     assert_ne!(file("early.svg"), file("a.svg"));
     assert_ne!(file("slow.svg"), file("a.svg"));
     assert_eq!(file("a.png")[..4], *b"\x89PNG");
-    let mut pictures = gif::Decoder::new(&file("a.gif")[..]).expect("a GIF");
+    let moving = file("a.gif");
+    let mut pictures = gif::Decoder::new(moving.as_slice()).expect("a GIF");
     let (wide, mut count) = (pictures.width(), 0);
     while pictures.read_next_frame().expect("a whole one").is_some() {
         count += 1;
