@@ -26,8 +26,10 @@ fn compare(case: &Case) -> Result<Option<String>, Error> {
     }
     let mut text = anstream::adapter::strip_str(&found.text).to_string();
     if let Some(folder) = std::env::var_os("CHOQUE_ARTIFACTS").filter(|folder| !folder.is_empty()) {
-        let left = leave(Path::new(&folder), case, &run, kept.as_ref(), found.iteration.unwrap_or(0))?;
-        text += &left.iter().map(|path| format!("left {}\n", path.display())).collect::<String>();
+        text += &match leave(Path::new(&folder), case, &run, kept.as_ref(), found.iteration.unwrap_or(0)) {
+            Ok(left) => left.iter().map(|path| format!("left {}\n", path.display())).collect(),
+            Err(error) => format!("{error}\n"),
+        };
     }
     Ok(Some(text))
 }
