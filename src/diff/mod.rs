@@ -4,7 +4,7 @@
 //! |---|---|
 //! | the two runs: recordings, scripts with settings of their own | [`sides`] |
 //! | what was said or modelled otherwise | `premises` |
-//! | the first difference, and its stage | [`parting`], `contacts` |
+//! | the first difference, and its stage | [`parting`](mod@parting), `contacts` |
 //! | how the difference grew | [`growth`] |
 //! | a script against its snapshot | [`pinned`] |
 //! | all of it in words | [`told`] |
