@@ -1,20 +1,31 @@
-//! The player's place: pages of a run, and of two runs laid over each other.
+//! The player: a recording in one page that needs nothing else, and the same as a module for other pages.
+//!
+//! | what | file |
+//! |---|---|
+//! | a page of its own: of a run, of two runs laid over each other | [`page`](mod@page), `page.html`, `page.css`, `page.js` |
+//! | the player's sources, for any page | [`assets`], `player.js`, `player.css` and what `assets` lists |
+//! | a recording as the player is handed it, and how exactly | [`film`](mod@film), `quantum`, `events`, `code`; `unpack.js` reads it |
+//! | texts that become parts of a page | `text` |
+//!
+//! A page of another's making loads [`style`] and [`script`] and then says
+//!
+//! ```js
+//! const film = await choque.unpack(await (await fetch("/film")).arrayBuffer());   // what `film` makes
+//! const player = new choque.Player(document.getElementById("player"), film);
+//! ```
+//!
+//! `player.js` begins with all that a player is told.
+
+pub mod assets;
+mod code;
+mod events;
+pub mod film;
+pub mod page;
+mod quantum;
+mod text;
+
+pub use assets::{script, style};
+pub use film::film;
+pub use page::{page, page_of_two};
 
 use crate::Error;
-use crate::recording::Recording;
-
-/// A page that plays a run.
-///
-/// # Errors
-/// There is no player yet.
-pub fn page(_: &Recording) -> Result<String, Error> {
-    Err(Error::Call { message: "pages are not there yet".to_owned(), hint: "make a .svg, .png or .gif".to_owned() })
-}
-
-/// A page that plays two runs laid over each other, from an iteration on.
-///
-/// # Errors
-/// There is no player yet.
-pub fn page_of_two(a: &Recording, _: &Recording, _: [&str; 2], _: u64) -> Result<String, Error> {
-    page(a)
-}
