@@ -2,7 +2,7 @@
 
 class Camera {
   constructor() {
-    Object.assign(this, { x: 0, z: 0, scale: 40, width: 1, height: 1 });
+    Object.assign(this, { x: 0, z: 0, scale: 40, width: 1, height: 1, wanted: null });
   }
 
   /** The whole of a box [x0, x1, z0, z1] with a margin. */
@@ -10,13 +10,15 @@ class Camera {
     [this.x, this.z] = [(x0 + x1) / 2, (z0 + z1) / 2];
     const size = (low, high) => Math.max(high - low, 1e-6);
     this.scale = 0.92 * Math.min(this.width / size(x0, x1), this.height / size(z0, z1));
-    this.home = this.scale;
+    this.wanted = [x0, x1, z0, z1]; // until there is room
   }
 
   resize(width, height) {
-    // What was in view stays in view.
-    if (this.width > 1) this.scale *= Math.min(width / this.width, height / this.height);
+    if (width < 1 || height < 1) return; // hidden
+    const [before, now] = [Math.min(this.width, this.height), Math.min(width, height)];
     [this.width, this.height] = [width, height];
+    if (before > 1) this.scale *= now / before; // what was in view stays in view
+    else if (this.wanted) this.fit(this.wanted);
   }
 
   toScreen(x, z) {

@@ -25,21 +25,23 @@ impl Bytes {
         }
     }
 
-    /// What each number differs from where the two before it lead: noughts for what moves uniformly. Numbers count up to
-    /// `turn`, if that is not 0, and then from its negative on: each is taken round as often as brings it nearest to where it
-    /// is expected.
-    pub(super) fn put_bends(&mut self, numbers: impl IntoIterator<Item = i64>, turn: i64) {
-        let (mut last, mut step) = (0, 0);
+    /// What each number differs from what is expected of it after the one before. Where `turn` is not 0 numbers are angles, of
+    /// which so many are half a turn, and each is taken round as often as brings it nearest to where it is expected.
+    pub(super) fn put_expected(
+        &mut self,
+        numbers: impl IntoIterator<Item = i64>,
+        turn: i64,
+        expected: impl Fn(usize, i64) -> i64,
+    ) {
+        let mut last = 0;
         for (index, number) in numbers.into_iter().enumerate() {
-            let mut bend = number - last - step;
+            let expected = expected(index, last);
+            let mut surprise = number - expected;
             if turn != 0 {
-                bend = (bend + turn).rem_euclid(2 * turn) - turn;
+                surprise = (surprise + turn).rem_euclid(2 * turn) - turn;
             }
-            self.put(bend);
-            let number = last + step + bend;
-            // The first number is a place and no step.
-            step = if index == 0 { 0 } else { number - last };
-            last = number;
+            self.put(surprise);
+            last = expected + surprise;
         }
     }
 }

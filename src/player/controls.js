@@ -31,11 +31,11 @@ class Controls {
       class: "stage", tabindex: "0", role: "img", "aria-label": "The collision plane seen from above",
     });
     this.card = el("dl", { class: "card" });
-    this.notice = el("p", { class: "notice", hidden: true });
+    this.notice = el("p", { class: "notice" });
     this.told = el("p", { class: "visually-hidden", role: "status", "aria-live": "polite" });
     const view = el("div", { class: "view" }, this.canvas, this.card, this.#nearness());
     this.plots = el("div", { class: "plots", role: "group", "aria-label": "Curves over time; press one to look at that time" });
-    this.roots = [el("div", { class: "seen" }, view, this.plots), this.#transport(), this.#options(), this.notice, this.told];
+    this.roots = [el("div", { class: "desk" }, view, this.plots, this.#transport(), this.#options()), this.notice, this.told];
     this.tables = tables && { bodies: bodyTable((body) => player.choose(body)), hits: hitTable() };
     if (tables) {
       for (const table of Object.values(this.tables)) table.turned = () => this.#fillTables();
@@ -97,11 +97,7 @@ class Controls {
     this.body.replaceChildren(el("option", { value: "", text: "no body chosen" }),
       ...film.bodies.map(({ name }, i) => el("option", { value: i, text: name })));
     this.speed.value = player.speed;
-    const { recorded, notes } = film.head;
-    const thinned = recorded > film.frames ? [`${film.frames} of ${recorded} recorded frames are here, so that the page stays small.`] : [];
-    const told = [...thinned, ...(notes ?? [])];
-    this.notice.hidden = told.length === 0;
-    this.notice.textContent = told.join(" ");
+    this.notice.textContent = film.head.notes.join(" ");
     this.#legendOf(film, laid);
     this.#plotsOf(film, laid.find(({ kind }) => kind === "B"), [clock.times[0], clock.times.at(-1)]);
     this.#drawBeats();
@@ -135,10 +131,16 @@ class Controls {
     }
     this.laid = other ? [other] : [];
     panels.forEach((panel, k) => this.curves[k].show(panel, of((of) => panelsOf(of)[k]), film, span));
-    this.ledger.root.hidden = !film.head.causes?.length;
+    this.ledger.root.hidden = !film.head.causes.length;
     if (!this.ledger.root.hidden) {
       this.ledger.show(ledgerPanel(film, player.quantity), of((of) => ledgerPanel(of, player.quantity)), film, span);
     }
+    for (const plot of this.#plotsShown) plot.labelled = plot === this.#plotsShown.at(-1);
+    this.#plotsShown.at(-1).draw();
+  }
+
+  get #plotsShown() {
+    return this.ledger.root.hidden ? this.curves : [...this.curves, this.ledger];
   }
 
   /** How many exchanges there were, above the track: a bar a pixel. */
@@ -154,7 +156,7 @@ class Controls {
       counts[clamp(Math.round(THUMB / 2 + share * (width - THUMB)), 0, counts.length - 1)] += to - from;
     }
     const most = counts.reduce((a, b) => Math.max(a, b), 1);
-    const wide = clamp(Math.floor((width - THUMB) / clock.frames), 1, 4);
+    const wide = clamp(Math.ceil((width - THUMB) / clock.frames), 1, 4);
     context.fillStyle = paletteOf(this.beats).contact;
     counts.forEach((count, x) => {
       const bar = count && Math.max(2, Math.sqrt(count / most) * height);
@@ -164,7 +166,7 @@ class Controls {
 
   resized() {
     this.#drawBeats();
-    for (const plot of [...this.curves, this.ledger]) plot.draw();
+    for (const plot of this.#plotsShown) plot.draw();
   }
 
   playing(playing) {
@@ -186,8 +188,7 @@ class Controls {
     this.follow.setAttribute("aria-pressed", player.following);
     this.body.value = player.chosen ?? "";
     this.speed.value = player.speed;
-    for (const plot of this.curves) plot.at(time, frame);
-    if (!this.ledger.root.hidden) this.ledger.at(time, frame);
+    for (const plot of this.#plotsShown) plot.at(time, frame);
     this.#showCard(film, frame);
     clearTimeout(this.later);
     const now = performance.now();

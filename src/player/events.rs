@@ -3,22 +3,27 @@
 use std::collections::BTreeMap;
 
 use super::code::Bytes;
+use super::film::whole;
 use super::quantum::Quantum;
-use crate::recording::{Frame, Strike, Touch};
+use crate::recording::{Frame, State, Strike, Touch};
 
-/// How many exchanges there are, and each of their numbers as a column.
-pub(super) fn hits(frames: &[&Frame], quantum: Quantum, middle: [f64; 2]) -> (usize, Bytes) {
+/// How many exchanges there are, pair after pair, and each of their numbers as a column: what a pair does again is much like
+/// what it did before. Points are counted from where the earlier-created body stands in the frame.
+pub(super) fn hits(frames: &[&Frame], quantum: Quantum) -> (usize, Bytes) {
     // Those of the first frame belong to what was before it.
-    let all: Vec<&Strike> = frames.iter().skip(1).flat_map(|frame| &frame.hits).collect();
+    let told = frames.iter().enumerate().skip(1).flat_map(|(index, frame)| frame.hits.iter().map(move |hit| (index, hit)));
+    let mut all: Vec<(usize, &Strike)> = told.collect();
+    all.sort_by_key(|(_, hit)| (hit.a, hit.b)); // stable: in time within a pair
     let mut bytes = Bytes::default();
-    let whole = |number: f64, step: f64| (number / step).round() as i64;
-    bytes.put_steps(all.iter().map(|hit| hit.iteration as i64));
-    bytes.put_steps(all.iter().map(|hit| i64::from(hit.a)));
-    bytes.put_steps(all.iter().map(|hit| i64::from(hit.b)));
-    bytes.put_steps(all.iter().map(|hit| whole(hit.point[0] - middle[0], quantum.place)));
-    bytes.put_steps(all.iter().map(|hit| whole(hit.point[1] - middle[1], quantum.place)));
-    bytes.put_steps(all.iter().map(|hit| whole(direction(hit.normal), quantum.normal)));
-    bytes.put_steps(all.iter().map(|hit| rolled(hit.depth as f32)));
+    let from = |(frame, hit): &(usize, &Strike)| -> State { frames[*frame].states[hit.a as usize] };
+    bytes.put_steps(all.iter().map(|(frame, _)| *frame as i64));
+    bytes.put_steps(all.iter().map(|(_, hit)| hit.iteration as i64));
+    bytes.put_steps(all.iter().map(|(_, hit)| i64::from(hit.a)));
+    bytes.put_steps(all.iter().map(|(_, hit)| i64::from(hit.b)));
+    bytes.put_steps(all.iter().map(|at| whole(at.1.point[0] - from(at).x, quantum.point)));
+    bytes.put_steps(all.iter().map(|at| whole(at.1.point[1] - from(at).z, quantum.point)));
+    bytes.put_steps(all.iter().map(|(_, hit)| whole(direction(hit.normal), quantum.normal)));
+    bytes.put_steps(all.iter().map(|(_, hit)| rolled(hit.depth as f32)));
     (all.len(), bytes)
 }
 
@@ -27,8 +32,7 @@ pub(super) fn hits(frames: &[&Frame], quantum: Quantum, middle: [f64; 2]) -> (us
 pub(super) fn touches(frames: &[&Frame], quantum: Quantum) -> (usize, Bytes) {
     let mut pairs: BTreeMap<(u32, u32, usize), Vec<(usize, &Touch)>> = BTreeMap::new();
     for (index, frame) in frames.iter().enumerate() {
-        let mut last = None;
-        let mut nth = 0;
+        let (mut last, mut nth) = (None, 0);
         for touch in &frame.touches {
             // Bodies of several rectangles may touch more than once.
             nth = if last == Some((touch.a, touch.b)) { nth + 1 } else { 0 };
@@ -39,15 +43,11 @@ pub(super) fn touches(frames: &[&Frame], quantum: Quantum) -> (usize, Bytes) {
     let mut bytes = Bytes::default();
     for ((a, b, _), seen) in &pairs {
         [i64::from(*a), i64::from(*b), seen.len() as i64].into_iter().for_each(|number| bytes.put(number));
-        let whole = |number: f32, step: f64| (f64::from(number) / step).round() as i64;
         let touches = || seen.iter().map(|(_, touch)| touch);
         bytes.put_steps(seen.iter().map(|(frame, _)| *frame as i64));
-        bytes.put_steps(touches().map(|touch| {
-            let normal = direction(touch.normal.map(f64::from));
-            (normal / quantum.normal).round() as i64
-        }));
+        bytes.put_steps(touches().map(|touch| whole(direction(touch.normal.map(f64::from)), quantum.normal)));
         for (point, axis) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
-            bytes.put_steps(touches().map(|touch| whole(touch.points[point][axis], quantum.touch)));
+            bytes.put_steps(touches().map(|touch| whole(f64::from(touch.points[point][axis]), quantum.point)));
         }
         bytes.put_steps(touches().map(|touch| rolled(touch.push[0] + touch.push[1])));
     }
@@ -58,7 +58,7 @@ fn direction([x, z]: [f64; 2]) -> f64 {
     libm::atan2(z, x)
 }
 
-/// The first 26 bits of an f32: five digits of it.
+/// The first 18 bits of an f32: three digits of it.
 fn rolled(number: f32) -> i64 {
-    i64::from(number.to_bits() >> 6)
+    i64::from(number.to_bits() >> 14)
 }

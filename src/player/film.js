@@ -10,7 +10,6 @@ class Film {
     for (const body of this.bodies) {
       body.reach = Math.max(0, ...body.rects.map(([x0, x1, z0, z1]) => Math.hypot(Math.max(-x0, x1), Math.max(-z0, z1))));
     }
-    this.firstHit = this.#hitsByFrame();
     this.fastest = this.#greatestSpeed();
     const sizes = this.bodies.filter(({ kind }) => kind === "mobile").map(({ reach }) => reach).sort((a, b) => a - b);
     this.typical = sizes[sizes.length >> 1] ?? 1; // how far a middling mobile body reaches [m]
@@ -22,18 +21,6 @@ class Film {
     let most = 0;
     for (let i = 0; i < vx.length; i++) most = Math.max(most, vx[i] * vx[i] + vz[i] * vz[i]);
     return Math.sqrt(most);
-  }
-
-  /** Where each frame's hits begin; one more at the end. Hits of frames that were left out are in the next one kept. */
-  #hitsByFrame() {
-    const first = new Uint32Array(this.frames + 1);
-    let hit = 0;
-    for (let frame = 0; frame < this.frames; frame++) {
-      first[frame] = hit;
-      while (hit < this.hits.count && this.hits.iteration[hit] < this.iteration[frame]) hit++;
-    }
-    first[this.frames] = hit;
-    return first;
   }
 
   get duration() {
@@ -65,13 +52,13 @@ class Film {
     const known = places.filter(({ name }) => this.index.has(name));
     const column = (key) => Float64Array.from(known, (place) => place[key] ?? 0);
     const poses = Object.fromEntries(CHANNELS.map((key) => [key, column(key)]));
-    const none = { count: 0, iteration: [] };
+    const none = { count: 0, first: [0, 0] };
     return new Film({ ...this.head, bodies, frames: 1 },
       { iteration: [0], poses, hits: none, touches: [[]], series: { time: Float64Array.of(0) } });
   }
 
   hitsIn(frame) {
-    return [this.firstHit[frame], this.firstHit[frame + 1]];
+    return [this.hits.first[frame], this.hits.first[frame + 1]];
   }
 
   /** The part of the world that is worth seeing: where mobile bodies are nearly all the time, and what of the fixed ones is near. */

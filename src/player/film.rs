@@ -24,8 +24,8 @@ const FORMAT: u32 = 1;
 /// The most that a film may take in a page, in base64: below 10 MB with the page around it.
 const MOST_BYTES: usize = 9_600_000;
 
-/// Of frames with nothing but their own number and time, more than are ever drawn.
-const FEWEST_FRAMES: usize = 2;
+/// How many times coarser numbers are told before frames are left out.
+const COARSEST: f64 = 16.0;
 
 #[derive(Serialize)]
 struct Head<'a> {
@@ -59,24 +59,27 @@ struct Actor<'a> {
     moves: bool,
 }
 
-/// A recording from the frame of that iteration on (or the last one before it), deflated: what `choque.unpack` takes. Frames
-/// are left out evenly while it is too long for a page, and the page says so.
+/// A recording from the frame of that iteration on (or the last one before it), deflated: what `choque.unpack` takes. While
+/// it is too long for a page, numbers are told more coarsely, and then frames are left out evenly, with their exchanges; the page
+/// says so.
 ///
 /// # Errors
 /// A body that is at no finite place.
 pub fn film(recording: &Recording, from: u64) -> Result<Vec<u8>, Error> {
     let first = recording.frames.partition_point(|frame| frame.iteration <= from).saturating_sub(1);
     let all: Vec<&Frame> = recording.frames.iter().skip(first).collect();
-    let (quantum, middle) = quantum::of(recording)?;
-    let mut kept = all.clone();
-    let mut every = 1;
+    let (mut coarser, mut every) = (1.0, 1);
     loop {
-        let bytes = packed(recording, &all, &kept, quantum, middle)?;
-        if bytes.len() / 3 * 4 <= MOST_BYTES || kept.len() <= FEWEST_FRAMES {
+        let kept = thinned(&all, every);
+        let bytes = packed(recording, all.len(), &kept, coarser)?;
+        if bytes.len().div_ceil(3) * 4 <= MOST_BYTES || kept.len() <= 2 {
             return Ok(bytes);
         }
-        every *= 2;
-        kept = thinned(&all, every);
+        if coarser < COARSEST {
+            coarser *= 4.0;
+        } else {
+            every *= 2;
+        }
     }
 }
 
@@ -87,22 +90,17 @@ pub(super) fn film_in_text(recording: &Recording, from: u64) -> Result<String, E
 
 /// Every so many frames, and the last.
 fn thinned<'a>(all: &[&'a Frame], every: usize) -> Vec<&'a Frame> {
-    let last = all.len() - 1;
+    let last = all.len().saturating_sub(1);
     all.iter().enumerate().filter(|(index, _)| index % every == 0 || *index == last).map(|(_, frame)| *frame).collect()
 }
 
-fn packed(
-    recording: &Recording,
-    all: &[&Frame],
-    kept: &[&Frame],
-    quantum: Quantum,
-    middle: [f64; 2],
-) -> Result<Vec<u8>, Error> {
+fn packed(recording: &Recording, recorded: usize, kept: &[&Frame], coarser: f64) -> Result<Vec<u8>, Error> {
+    let (quantum, middle) = quantum::of(recording, coarser)?;
     let moves: Vec<bool> = (0..recording.bodies.len()).map(|body| ever_moves(kept, body)).collect();
     let mut iterations = Bytes::default();
     iterations.put_steps(kept.iter().map(|frame| frame.iteration as i64));
     let poses = poses(kept, &moves, quantum, middle);
-    let (hits, hit_bytes) = hits(all, quantum, middle);
+    let (hits, hit_bytes) = hits(kept, quantum);
     let (touches, touch_bytes) = touches(kept, quantum);
     let (names, series) = series(kept, &recording.about.causes);
     let sections = [iterations, poses, hit_bytes, touch_bytes, Bytes(series)].map(|bytes| bytes.0);
@@ -111,7 +109,7 @@ fn packed(
         title: &recording.about.title,
         plane: recording.about.settings.plane,
         frames: kept.len(),
-        recorded: all.len(),
+        recorded,
         quantum,
         middle,
         bodies: recording.bodies.iter().zip(moves).map(|(body, moves)| Actor::of(body, moves)).collect(),
@@ -120,7 +118,7 @@ fn packed(
         touches,
         series: names,
         sections: [0, 1, 2, 3, 4].map(|k| sections[k].len()),
-        notes: notes(recording),
+        notes: notes(recording, recorded, kept.len(), quantum),
     };
     let head = serde_json::to_vec(&head).map_err(|why| Error::unwritable("the film", &why))?;
     deflated(&head, &sections).map_err(|why| Error::unwritable("the film", &why))
@@ -154,29 +152,46 @@ fn ever_moves(frames: &[&Frame], body: usize) -> bool {
     [vx, vz, spin] != [0.0; 3] || frames.iter().any(|frame| frame.states[body] != first)
 }
 
-/// Body after body, its six numbers one after the other: what hardly changes stands together.
+/// Body after body, one of its six numbers after the other: what hardly changes stands together. Velocities as they change; places
+/// by their distance from where the mean of the velocities before and after leads.
 fn poses(frames: &[&Frame], moves: &[bool], quantum: Quantum, middle: [f64; 2]) -> Bytes {
     let mut bytes = Bytes::default();
+    let Quantum { place, angle, velocity, spin, .. } = quantum;
     for (body, moves) in moves.iter().enumerate() {
-        let states = || frames.iter().map(|frame| frame.states[body]);
-        let whole = |number: f64, step: f64| (number / step).round() as i64;
-        let x = |state: State| whole(state.x - middle[0], quantum.place);
-        let z = |state: State| whole(state.z - middle[1], quantum.place);
-        let angle = |state: State| whole(state.angle, quantum.angle);
+        let column = |read: fn(&State) -> f64, zero: f64, step: f64| -> Vec<i64> {
+            frames.iter().map(|frame| whole(read(&frame.states[body]) - zero, step)).collect()
+        };
+        let x = column(|state| state.x, middle[0], place);
+        let z = column(|state| state.z, middle[1], place);
+        let turned = column(|state| state.angle, 0.0, angle);
         if !moves {
-            for state in states().take(1) {
-                [x(state), z(state), angle(state)].into_iter().for_each(|number| bytes.put(number));
-            }
+            [x, z, turned].iter().flat_map(|column| column.first()).for_each(|number| bytes.put(*number));
             continue;
         }
-        bytes.put_bends(states().map(x), 0);
-        bytes.put_bends(states().map(z), 0);
-        bytes.put_bends(states().map(angle), HALF_TURN);
-        bytes.put_steps(states().map(|state| whole(state.vx, quantum.velocity)));
-        bytes.put_steps(states().map(|state| whole(state.vz, quantum.velocity)));
-        bytes.put_steps(states().map(|state| whole(state.spin, quantum.spin)));
+        let vx = column(|state| state.vx, 0.0, velocity);
+        let vz = column(|state| state.vz, 0.0, velocity);
+        let turns = column(|state| state.spin, 0.0, spin);
+        for (places, motion, turn, ratio) in
+            [(x, vx, 0, velocity / place), (z, vz, 0, velocity / place), (turned, turns, HALF_TURN, spin / angle)]
+        {
+            bytes.put_steps(motion.iter().copied());
+            bytes.put_expected(places, turn, |frame, last| match frame {
+                0 => 0,
+                _ => {
+                    let mean = 0.5 * (motion[frame - 1] as f64 + motion[frame] as f64);
+                    let time = frames[frame].time - frames[frame - 1].time;
+                    // As JavaScript rounds.
+                    (last as f64 + mean * ratio * time + 0.5).floor() as i64
+                }
+            });
+        }
     }
     bytes
+}
+
+/// A number in steps of that size.
+pub(super) fn whole(number: f64, step: f64) -> i64 {
+    (number / step).round() as i64
 }
 
 /// Columns of f64 with their names; what a cause never changed is left out.
@@ -208,9 +223,17 @@ fn series(frames: &[&Frame], causes: &[String]) -> (Vec<String>, Vec<u8>) {
     (names, bytes)
 }
 
-fn notes(recording: &Recording) -> Vec<String> {
-    match recording.about.every {
-        0 | 1 => Vec::new(),
-        every => vec![format!("A frame every {every} iterations was recorded.")],
+/// What a page should say of how it differs from the run.
+fn notes(recording: &Recording, recorded: usize, kept: usize, quantum: Quantum) -> Vec<String> {
+    let mut notes = Vec::new();
+    if recording.about.every > 1 {
+        notes.push(format!("A frame every {} iterations was recorded.", recording.about.every));
     }
+    if kept < recorded {
+        notes.push(format!(
+            "{kept} of {recorded} recorded frames are here, with their exchanges, so that the page stays below 10 MB."
+        ));
+    }
+    notes.push(format!("Places are told to {:.1e} m, velocities to {:.1e} m/s.", quantum.place, quantum.velocity));
+    notes
 }

@@ -8,10 +8,10 @@ function panelsOf(film) {
   const { series } = film;
   const curve = (name, key) => ({ name, values: series[key] });
   return [
-    { title: "Kinetic energy", unit: "J", curves: [curve("kinetic energy", "kinetic_energy")], zero: true },
+    { title: "Kinetic energy", unit: "J", curves: [curve("", "kinetic_energy")], zero: true },
     { title: "Momentum", unit: "kg·m/s", curves: [curve("along X", "momentum_x"), curve("along Z", "momentum_z")] },
     { title: "Angular momentum", unit: "kg·m²/s", curves: [curve("about the origin", "angular_momentum")] },
-    { title: "Deepest overlap", unit: "m", curves: [curve("deepest overlap", "deepest")], zero: true },
+    { title: "Deepest overlap", unit: "m", curves: [curve("", "deepest")], zero: true },
   ];
 }
 
@@ -70,7 +70,8 @@ class Plot {
     context.clearRect(0, 0, width, height);
     const curves = [...this.panel.curves, ...(this.other?.curves ?? [])];
     const [low, high] = rangeOf(curves, this.panel.zero);
-    const frame = { left: GUTTER, right: width - EDGE, top: 5, bottom: height - 5, low, high, span: this.span };
+    const frame = { left: GUTTER, right: width - EDGE, top: 5, bottom: height - (this.labelled ? 20 : 5), low, high, span: this.span };
+    drawTimes(context, colour, frame, this.labelled);
     drawGrid(context, colour, frame, this.panel.unit);
     for (const [k, { values }] of (this.other?.curves ?? []).entries()) {
       drawCurve(context, frame, this.other.times, values, { line: colour[`curve-${k % CURVES}`], width: 1, dash: [1, 3] });
@@ -149,6 +150,27 @@ function drawGrid(context, colour, { left, right, top, bottom, low, high }, unit
   context.textAlign = "center";
   context.fillText(scaled, 0, 0);
   context.restore();
+}
+
+/** Lines at round times, through all panels; the lowest panel tells which. */
+function drawTimes(context, colour, { left, right, top, bottom, span: [from, to] }, labelled) {
+  if (!(to > from)) return;
+  const step = niceStep((to - from) * (64 / (right - left)));
+  const decimals = clamp(Math.ceil(-Math.log10(step) - 1e-9), 0, 9);
+  context.font = "11px system-ui, sans-serif";
+  context.textAlign = "center";
+  context.textBaseline = "top";
+  context.lineWidth = 1;
+  context.strokeStyle = colour.grid;
+  context.fillStyle = colour.faint;
+  for (let k = Math.ceil(from / step - 1e-9); k * step <= to + 1e-9 * step; k++) {
+    const x = Math.round(left + ((k * step - from) / (to - from)) * (right - left)) + 0.5;
+    context.beginPath();
+    context.moveTo(x, top);
+    context.lineTo(x, bottom);
+    context.stroke();
+    if (labelled) context.fillText(`${fixed(k * step, decimals)} s`, Math.min(x, right - 4), bottom + 5);
+  }
 }
 
 /** At most a few points a pixel are drawn, and among them the least and the greatest of all that fall there. */

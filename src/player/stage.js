@@ -295,6 +295,8 @@ class Stage {
     context.fillStyle = colour.ink;
     context.lineJoin = "round";
     const taken = new Set();
+    // In a body there is room for its name, or it stands above.
+    const lift = (body) => (film.bodies[body].reach * this.camera.scale < 40 ? film.bodies[body].reach * this.camera.scale * 0.6 + 9 : 0);
     const write = (body, px, py) => {
       const name = film.bodies[body].name;
       context.strokeText(name, px, py);
@@ -304,9 +306,9 @@ class Stage {
       const cell = `${Math.round(px / 56)} ${Math.round(py / 18)}`;
       if (body === chosen || film.bodies[body].reach * this.camera.scale < 9 || taken.size > 250 || taken.has(cell)) return;
       taken.add(cell);
-      write(body, px, py);
+      write(body, px, py - lift(body));
     });
-    if (chosen != null) this.#visible(film, frame, (body, px, py) => body === chosen && write(body, px, py));
+    if (chosen != null) this.#visible(film, frame, (body, px, py) => body === chosen && write(body, px, py - lift(body)));
     context.lineJoin = "miter";
   }
 

@@ -42,16 +42,6 @@ class Numbers {
     for (let i = 0, last = 0; i < count; i++) see((last += this.next()), i);
   }
 
-  /** The same of numbers that were written as differences from where the two before lead. */
-  bends(count, see) {
-    let [last, step] = [0, 0];
-    for (let i = 0; i < count; i++) {
-      const value = last + step + this.next();
-      step = i === 0 ? 0 : value - last;
-      see((last = value), i);
-    }
-  }
-
   column(count) {
     const column = new Float64Array(count);
     this.steps(count, (value, i) => (column[i] = value));
@@ -63,59 +53,81 @@ const TAU = 2 * Math.PI;
 const CHANNELS = ["x", "z", "angle", "vx", "vz", "spin"];
 
 /** The places and motions: for every channel an array, frame after frame, a number per body. */
-function posesOf(head, bytes) {
+function posesOf(head, bytes, times) {
   const { frames, bodies, quantum, middle } = head;
   const numbers = new Numbers(bytes);
-  const poses = {};
-  for (const name of CHANNELS) poses[name] = new Float64Array(frames * bodies.length);
-  const read = (name, body, way, unit, zero) => {
-    const column = poses[name];
-    numbers[way](frames, (value, frame) => (column[frame * bodies.length + body] = zero + value * unit));
-  };
-  const turn = (value) => value - Math.ceil(value / TAU - 0.5) * TAU; // into (−π, π]
-  for (let body = 0; body < bodies.length; body++) {
-    if (!bodies[body].moves) {
-      // What stands still is written once.
-      CHANNELS.forEach((name, k) => {
-        const unit = [quantum.place, quantum.place, quantum.angle, 0, 0, 0][k];
-        const value = (k < 2 ? middle[k] : 0) + (k < 3 ? numbers.next() : 0) * unit;
-        for (let frame = 0; frame < frames; frame++) poses[name][frame * bodies.length + body] = value;
-      });
-      continue;
+  const poses = Object.fromEntries(CHANNELS.map((name) => [name, new Float64Array(frames * bodies.length)]));
+  const channels = [
+    { place: poses.x, motion: poses.vx, step: quantum.place, unit: quantum.velocity, zero: middle[0], angle: false },
+    { place: poses.z, motion: poses.vz, step: quantum.place, unit: quantum.velocity, zero: middle[1], angle: false },
+    { place: poses.angle, motion: poses.spin, step: quantum.angle, unit: quantum.spin, zero: 0, angle: true },
+  ];
+  bodies.forEach((body, index) => {
+    for (const channel of channels) {
+      if (body.moves) readCourse(numbers, channel, times, bodies.length, index);
+      else readPlace(numbers, channel, frames, bodies.length, index);
     }
-    read("x", body, "bends", quantum.place, middle[0]);
-    read("z", body, "bends", quantum.place, middle[1]);
-    numbers.bends(frames, (value, frame) => (poses.angle[frame * bodies.length + body] = turn(value * quantum.angle)));
-    read("vx", body, "steps", quantum.velocity, 0);
-    read("vz", body, "steps", quantum.velocity, 0);
-    read("spin", body, "steps", quantum.spin, 0);
-  }
+  });
   return poses;
+}
+
+/** What stands still is written once. */
+function readPlace(numbers, { place, step, zero }, frames, bodies, body) {
+  const value = frames ? zero + numbers.next() * step : zero;
+  for (let at = body; at < place.length; at += bodies) place[at] = value;
+}
+
+/** Velocities as steps; places by their distance from where the mean of the velocities before and after leads. */
+function readCourse(numbers, { place, motion, step, unit, zero, angle }, times, bodies, body) {
+  const whole = numbers.column(times.length);
+  let last = 0;
+  for (let frame = 0, at = body; frame < times.length; frame++, at += bodies) {
+    if (frame > 0) {
+      const mean = 0.5 * (whole[frame - 1] + whole[frame]);
+      last = Math.floor(last + mean * (unit / step) * (times[frame] - times[frame - 1]) + 0.5);
+    }
+    last += numbers.next();
+    motion[at] = whole[frame] * unit;
+    place[at] = angle ? turned(last * step) : zero + last * step;
+  }
+}
+
+/** An angle in (−π, π]. */
+function turned(angle) {
+  return angle - Math.ceil(angle / TAU - 0.5) * TAU;
 }
 
 const FLOAT = new DataView(new ArrayBuffer(4));
 
-/** The number whose f32 begins with these 26 bits. */
+/** The number whose f32 begins with these 18 bits. */
 function unroll(bits) {
-  FLOAT.setUint32(0, bits * 64);
+  FLOAT.setUint32(0, bits * 2 ** 14);
   return FLOAT.getFloat32(0);
 }
 
-/** Exchanges, a column each, in order. */
-function hitsOf(head, bytes) {
-  const { hits: count, quantum, middle } = head;
+/** Exchanges in order of time, a column each; those of frame f begin at first[f]. */
+function hitsOf(head, bytes, poses) {
+  const { hits: count, frames, bodies, quantum } = head;
   const numbers = new Numbers(bytes);
-  const iteration = numbers.column(count);
-  const [a, b, x, z, normal, depth] = [0, 1, 2, 3, 4, 5].map(() => numbers.column(count));
+  const [frame, iteration, a, b, x, z, normal, depth] = Array.from({ length: 8 }, () => numbers.column(count));
+  const first = new Uint32Array(frames + 1);
+  for (let hit = 0; hit < count; hit++) first[frame[hit] + 1]++;
+  for (let f = 0; f < frames; f++) first[f + 1] += first[f];
+  const order = new Uint32Array(count); // they were written pair after pair
+  const next = first.slice();
+  for (let hit = 0; hit < count; hit++) order[next[frame[hit]]++] = hit;
+  const column = (value) => Float64Array.from(order, value);
+  const stands = (hit) => frame[hit] * bodies.length + a[hit];
   return {
     count,
-    iteration,
-    a,
-    b,
-    x: x.map((value) => middle[0] + value * quantum.place),
-    z: z.map((value) => middle[1] + value * quantum.place),
-    normal: normal.map((value) => value * quantum.normal),
-    depth: depth.map(unroll),
+    first,
+    iteration: column((hit) => iteration[hit]),
+    a: column((hit) => a[hit]),
+    b: column((hit) => b[hit]),
+    x: column((hit) => poses.x[stands(hit)] + x[hit] * quantum.point),
+    z: column((hit) => poses.z[stands(hit)] + z[hit] * quantum.point),
+    normal: column((hit) => normal[hit] * quantum.normal),
+    depth: column((hit) => unroll(depth[hit])),
   };
 }
 
@@ -133,7 +145,7 @@ function touchesOf(head, bytes) {
         a,
         b,
         normal: normal[i] * quantum.normal,
-        points: [[x0[i], z0[i]], [x1[i], z1[i]]].map((p) => p.map((value) => value * quantum.touch)),
+        points: [[x0[i], z0[i]], [x1[i], z1[i]]].map((p) => p.map((value) => value * quantum.point)),
         push: unroll(push[i]),
       });
     }
@@ -160,12 +172,14 @@ async function unpack(packed) {
   const head = JSON.parse(new TextDecoder().decode(bytes.subarray(4, 4 + length)));
   if (head.format !== 1) throw new Error(`This player reads films of format 1, and this is one of format ${head.format}.`);
   let at = 4 + length;
-  const [iterations, poses, hits, touches, series] = head.sections.map((size) => bytes.subarray(at, (at += size)));
+  const [iterations, poses, hits, touches, columns] = head.sections.map((size) => bytes.subarray(at, (at += size)));
+  const series = seriesOf(head, columns);
+  const course = posesOf(head, poses, series.time);
   return new Film(head, {
     iteration: new Numbers(iterations).column(head.frames),
-    poses: posesOf(head, poses),
-    hits: hitsOf(head, hits),
+    poses: course,
+    hits: hitsOf(head, hits, course),
     touches: touchesOf(head, touches),
-    series: seriesOf(head, series),
+    series,
   });
 }
