@@ -97,7 +97,10 @@ class Controls {
     this.body.replaceChildren(el("option", { value: "", text: "no body chosen" }),
       ...film.bodies.map(({ name }, i) => el("option", { value: i, text: name })));
     this.speed.value = player.speed;
-    this.notice.textContent = film.head.notes.join(" ");
+    this.notice.textContent = [
+      ...film.head.notes,
+      `Places are told to ${measure(film.head.quantum.place, "m")}, velocities to ${measure(film.head.quantum.velocity, "m/s")}.`,
+    ].join(" ");
     this.#legendOf(film, laid);
     this.#plotsOf(film, laid.find(({ kind }) => kind === "B"), [clock.times[0], clock.times.at(-1)]);
     this.#drawBeats();
@@ -183,7 +186,7 @@ class Controls {
     const iteration = `iteration ${film.iteration[frame]}`;
     this.scrubber.value = player.position;
     this.scrubber.setAttribute("aria-valuetext", `${fixed(time, 3)} seconds, ${iteration}`);
-    this.clock.replaceChildren(el("b", { text: `${fixed(time, 3)} s` }), ` ${iteration}`);
+    this.clock.replaceChildren(el("b", { text: `${fixed(time, 3)} s` }), " ", el("span", { text: iteration }));
     for (const [k, [what]] of SHOWN.entries()) this.shown[k].setAttribute("aria-pressed", player.show[what]);
     this.follow.setAttribute("aria-pressed", player.following);
     this.body.value = player.chosen ?? "";

@@ -118,7 +118,7 @@ fn packed(recording: &Recording, recorded: usize, kept: &[&Frame], coarser: f64)
         touches,
         series: names,
         sections: [0, 1, 2, 3, 4].map(|k| sections[k].len()),
-        notes: notes(recording, recorded, kept.len(), quantum),
+        notes: notes(recording, recorded, kept.len()),
     };
     let head = serde_json::to_vec(&head).map_err(|why| Error::unwritable("the film", &why))?;
     deflated(&head, &sections).map_err(|why| Error::unwritable("the film", &why))
@@ -224,7 +224,7 @@ fn series(frames: &[&Frame], causes: &[String]) -> (Vec<String>, Vec<u8>) {
 }
 
 /// What a page should say of how it differs from the run.
-fn notes(recording: &Recording, recorded: usize, kept: usize, quantum: Quantum) -> Vec<String> {
+fn notes(recording: &Recording, recorded: usize, kept: usize) -> Vec<String> {
     let mut notes = Vec::new();
     if recording.about.every > 1 {
         notes.push(format!("A frame every {} iterations was recorded.", recording.about.every));
@@ -234,6 +234,5 @@ fn notes(recording: &Recording, recorded: usize, kept: usize, quantum: Quantum) 
             "{kept} of {recorded} recorded frames are here, with their exchanges, so that the page stays below 10 MB."
         ));
     }
-    notes.push(format!("Places are told to {:.1e} m, velocities to {:.1e} m/s.", quantum.place, quantum.velocity));
     notes
 }

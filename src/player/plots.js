@@ -56,7 +56,7 @@ class Plot {
     this.heading.textContent = panel.title;
     this.entries = panel.curves.map(({ name }) => {
       const [line, value] = [el("canvas", { class: "swatch", width: 52, height: 16, "aria-hidden": "true" }), el("output")];
-      return { line, value, item: el("li", {}, line, el("span", { text: name }), value) };
+      return { line, value, item: el("li", {}, line, name, value) };
     });
     const nothing = el("li", { text: "nothing was booked" });
     this.readings.replaceChildren(...(this.entries.length ? this.entries.map(({ item }) => item) : [nothing]));

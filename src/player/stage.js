@@ -24,6 +24,8 @@ function hatch(context, colour, ground, crossed, scale = 0.5) {
 }
 
 const HITS_STAY = 8; // frames for which an exchange is still drawn, ever fainter
+const HITS_TOGETHER = 400; // exchanges drawn at most before those of earlier frames are left out
+const TOGETHER = 48; // things in one path: measured, longer ones take more time than they save
 
 class Stage {
   constructor(canvas) {
@@ -95,19 +97,26 @@ class Stage {
     }
   }
 
-  /** All bodies of a kind are one path: a thousand of them cost hardly more than one. */
+  /** Bodies of a kind share paths: a few dozen in each are drawn fastest. */
   #bodies(context, style, film, frame) {
     for (const kind of ["fixed", "driven", "mobile"]) {
       const { fill, line, width } = style.kinds[kind];
+      [context.fillStyle, context.strokeStyle, context.lineWidth] = [fill, line, width];
+      let traced = 0;
+      const paint = () => {
+        if (!traced) return;
+        context.fill();
+        context.stroke();
+        context.beginPath();
+        traced = 0;
+      };
       context.beginPath();
       this.#visible(film, frame, (body, px, py, c, s) => {
-        if (film.bodies[body].kind === kind) this.#trace(context, film.bodies[body].rects, px, py, c, s);
+        if (film.bodies[body].kind !== kind) return;
+        this.#trace(context, film.bodies[body].rects, px, py, c, s);
+        if (++traced === TOGETHER) paint();
       });
-      context.fillStyle = fill;
-      context.fill();
-      context.strokeStyle = line;
-      context.lineWidth = width;
-      context.stroke();
+      paint();
     }
     this.#headings(context, style.colour, film, frame);
   }
@@ -188,7 +197,11 @@ class Stage {
     context.textBaseline = "bottom";
     context.fillStyle = colour.faint;
     const height = film.head.plane;
-    context.fillText(`${measure(step, "m").replace(/\.0+ /, " ")} · X right, Z up · plane Y = ${height === 0 ? "0" : digits(height, 3)} m`, right, bottom - 8);
+    const text = `${measure(step, "m").replace(/\.0+ /, " ")} · X right, Z up · plane Y = ${height === 0 ? "0" : digits(height, 3)} m`;
+    context.lineWidth = 4;
+    context.strokeStyle = colour.stage;
+    context.strokeText(text, right, bottom - 8);
+    context.fillText(text, right, bottom - 8);
   }
 
   #trails(context, colour, { film, frame, chosen }) {
@@ -227,46 +240,61 @@ class Stage {
     context.stroke();
   }
 
-  /** The exchanges of this frame and, fainter, of some before: point, normal and the face's line; and contacts that last. */
+  /**
+   * The exchanges of this frame and, fainter, of some before, as long as those are not so many that nothing could be told
+   * apart: point, normal and the face's line; and contacts that last.
+   */
   #contacts(context, colour, film, frame) {
-    const { hits } = film;
-    const long = clamp(1.5 * film.typical * this.camera.scale, 10, 26); // pixels
+    const long = clamp(1.5 * film.typical * this.camera.scale, 8, 26); // pixels
     context.strokeStyle = colour.contact;
-    for (let age = Math.min(HITS_STAY, frame); age >= 0; age--) {
-      const [from, to] = film.hitsIn(frame - age);
-      if (from === to) continue;
+    let ages = 0;
+    while (ages < Math.min(HITS_STAY, frame) && film.hits.first[frame + 1] - film.hits.first[frame - ages - 1] < HITS_TOGETHER) ages++;
+    for (let age = ages; age >= 0; age--) {
       context.globalAlpha = 1 - age / (HITS_STAY + 1);
-      context.beginPath();
-      for (let hit = from; hit < to; hit++) {
-        const [px, py] = this.camera.toScreen(hits.x[hit], hits.z[hit]);
-        if (px < -40 || py < -40 || px > this.camera.width + 40 || py > this.camera.height + 40) continue;
-        const [nx, ny] = [Math.cos(hits.normal[hit]), -Math.sin(hits.normal[hit])];
-        diamond(context, px, py, long / 6);
-        arrow(context, px, py, px + long * nx, py + long * ny, long / 5);
-        context.moveTo(px - 0.5 * long * ny, py + 0.5 * long * nx);
-        context.lineTo(px + 0.5 * long * ny, py - 0.5 * long * nx);
-      }
-      context.lineWidth = age === 0 ? 1.75 : 1.25;
-      context.stroke();
+      context.lineWidth = age === 0 && long > 12 ? 1.75 : 1.25;
+      const [from, to] = film.hitsIn(frame - age);
+      for (let first = from; first < to; first += TOGETHER) this.#hits(context, film.hits, first, Math.min(first + TOGETHER, to), long);
     }
     context.globalAlpha = 1;
-    this.#touches(context, film, frame);
+    this.#touches(context, film, frame, clamp(0.5 * film.typical * this.camera.scale, 1.5, 7));
   }
 
-  #touches(context, film, frame) {
-    const first = frame * film.bodies.length;
+  #hits(context, { x, z, normal }, from, to, long) {
     context.beginPath();
+    for (let hit = from; hit < to; hit++) {
+      const [px, py] = this.camera.toScreen(x[hit], z[hit]);
+      if (px < -40 || py < -40 || px > this.camera.width + 40 || py > this.camera.height + 40) continue;
+      const [nx, ny] = [Math.cos(normal[hit]), -Math.sin(normal[hit])];
+      diamond(context, px, py, long / 6);
+      if (long > 12) arrow(context, px, py, px + long * nx, py + long * ny, long / 5);
+      else segment(context, px, py, px + long * nx, py + long * ny);
+      segment(context, px - 0.5 * long * ny, py + 0.5 * long * nx, px + 0.5 * long * ny, py - 0.5 * long * nx);
+    }
+    context.stroke();
+  }
+
+  /** Contacts that last: a ring and a line along the normal at each point, of that size in pixels; the line alone where it is small. */
+  #touches(context, film, frame, size) {
+    const first = frame * film.bodies.length;
+    context.lineWidth = size < 3 ? 0.75 : 1.25;
+    context.beginPath();
+    let traced = 0;
     for (const { a, normal, points } of film.touches[frame]) {
-      const [nx, ny] = [Math.cos(normal), -Math.sin(normal)];
+      const [nx, ny] = [Math.cos(normal) * size, -Math.sin(normal) * size];
       for (const [x, z] of points) {
         const [px, py] = this.camera.toScreen(film.poses.x[first + a] + x, film.poses.z[first + a] + z);
-        context.moveTo(px + 2.5, py);
-        context.arc(px, py, 2.5, 0, TAU);
-        context.moveTo(px - 7 * nx, py - 7 * ny);
-        context.lineTo(px + 7 * nx, py + 7 * ny);
+        if (px < 0 || py < 0 || px > this.camera.width || py > this.camera.height) continue;
+        segment(context, px - nx, py - ny, px + nx, py + ny);
+        if (size > 3) {
+          context.moveTo(px + 0.4 * size, py);
+          context.arc(px, py, 0.4 * size, 0, TAU);
+        }
+        if (++traced % TOGETHER === 0) {
+          context.stroke();
+          context.beginPath();
+        }
       }
     }
-    context.lineWidth = 1.25;
     context.stroke();
   }
 
@@ -336,13 +364,16 @@ function niceStep(least) {
   return power * ([1, 2, 5].find((digit) => digit * power >= least * 0.999) ?? 10);
 }
 
-function arrow(context, x0, y0, x1, y1, head) {
-  const angle = Math.atan2(y1 - y0, x1 - x0);
+function segment(context, x0, y0, x1, y1) {
   context.moveTo(x0, y0);
   context.lineTo(x1, y1);
+}
+
+function arrow(context, x0, y0, x1, y1, head) {
+  const angle = Math.atan2(y1 - y0, x1 - x0);
+  segment(context, x0, y0, x1, y1);
   for (const turn of [2.6, -2.6]) {
-    context.moveTo(x1, y1);
-    context.lineTo(x1 + head * Math.cos(angle + turn), y1 + head * Math.sin(angle + turn));
+    segment(context, x1, y1, x1 + head * Math.cos(angle + turn), y1 + head * Math.sin(angle + turn));
   }
 }
 
