@@ -11,7 +11,8 @@ use crate::recording::{Frame, State, Strike, Touch};
 /// what it did before. Points are counted from where the earlier-created body stands in the frame.
 pub(super) fn hits(frames: &[&Frame], quantum: Quantum) -> (usize, Bytes) {
     // Those of the first frame belong to what was before it.
-    let told = frames.iter().enumerate().skip(1).flat_map(|(index, frame)| frame.hits.iter().map(move |hit| (index, hit)));
+    let told =
+        frames.iter().enumerate().skip(1).flat_map(|(index, frame)| frame.hits.iter().map(move |hit| (index, hit)));
     let mut all: Vec<(usize, &Strike)> = told.collect();
     all.sort_by_key(|(_, hit)| (hit.a, hit.b)); // stable: in time within a pair
     let mut bytes = Bytes::default();

@@ -179,14 +179,19 @@ fn poses(frames: &[&Frame], moves: &[bool], quantum: Quantum, middle: [f64; 2]) 
                 0 => 0,
                 _ => {
                     let mean = 0.5 * (motion[frame - 1] as f64 + motion[frame] as f64);
-                    let time = frames[frame].time - frames[frame - 1].time;
-                    // As JavaScript rounds.
-                    (last as f64 + mean * ratio * time + 0.5).floor() as i64
+                    last + led(mean * ratio, frames[frame].time - frames[frame - 1].time)
                 }
             });
         }
     }
     bytes
+}
+
+/// How far a motion leads in that time, in whole steps, rounded as JavaScript rounds; a motion that would lead out of the scene
+/// altogether leads nowhere.
+fn led(motion: f64, time: f64) -> i64 {
+    let far = (motion * time + 0.5).floor();
+    if far.abs() < quantum::MOST { far as i64 } else { 0 }
 }
 
 /// A number in steps of that size.

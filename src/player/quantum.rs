@@ -12,7 +12,7 @@ pub(super) const HALF_TURN: i64 = 1 << 19;
 /// A normal is told in 2¹² parts of a turn, with the four directions of the axes among them.
 const NORMAL: f64 = TAU / 4096.0;
 /// Whole numbers that a page's f64 count exactly, with room for differences.
-const MOST: f64 = (1_u64 << 50) as f64;
+pub(super) const MOST: f64 = (1_u64 << 50) as f64;
 
 /// The steps in which numbers are told, and what places are counted from.
 #[derive(Clone, Copy, Debug, Serialize)]

@@ -84,7 +84,8 @@ function readCourse(numbers, { place, motion, step, unit, zero, angle }, times, 
   for (let frame = 0, at = body; frame < times.length; frame++, at += bodies) {
     if (frame > 0) {
       const mean = 0.5 * (whole[frame - 1] + whole[frame]);
-      last = Math.floor(last + mean * (unit / step) * (times[frame] - times[frame - 1]) + 0.5);
+      const led = Math.floor(mean * (unit / step) * (times[frame] - times[frame - 1]) + 0.5);
+      if (Math.abs(led) < 2 ** 50) last += led;
     }
     last += numbers.next();
     motion[at] = whole[frame] * unit;

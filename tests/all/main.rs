@@ -8,6 +8,7 @@ mod exact;
 mod harness;
 mod ledger;
 mod metamorphic;
+mod player;
 mod project;
 mod recording;
 mod render;
