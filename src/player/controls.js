@@ -120,7 +120,7 @@ class Controls {
     const { player } = this;
     const seek = (time) => player.seek(time);
     const panels = panelsOf(film);
-    const of = (make) => other && { ...make(other.film), times: other.film.times };
+    const of = (make) => other && { ...make(other.film), film: other.film };
     if (!this.curves) {
       this.curves = panels.map(() => new Plot(seek));
       this.ledger = new Plot(seek);

@@ -50,7 +50,7 @@ class Plot {
     this.area.addEventListener("pointermove", (event) => this.area.hasPointerCapture(event.pointerId) && pick(event));
   }
 
-  /** `panel` is one of the above; `other` the same panel of a run laid over, or nothing; `span` the times from and to. */
+  /** `panel` is one of the above; `other` the same panel of a run laid over with its film, or nothing; `span` the times from and to. */
   show(panel, other, film, span) {
     Object.assign(this, { panel, other, film, span });
     this.heading.textContent = panel.title;
@@ -74,7 +74,7 @@ class Plot {
     drawTimes(context, colour, frame, this.labelled);
     drawGrid(context, colour, frame, this.panel.unit);
     for (const [k, { values }] of (this.other?.curves ?? []).entries()) {
-      drawCurve(context, frame, this.other.times, values, { line: colour[`curve-${k % CURVES}`], width: 1, dash: [1, 3] });
+      drawCurve(context, frame, this.other.film.times, values, { line: colour[`curve-${k % CURVES}`], width: 1.5, dash: [1.5, 2.5] });
     }
     for (const [k, { values }] of this.panel.curves.entries()) {
       const look = { line: colour[`curve-${k % CURVES}`], width: 1.75, dash: DASHES[(k + (k >= CURVES)) % DASHES.length] };
@@ -100,8 +100,12 @@ class Plot {
     const share = to > from ? (time - from) / (to - from) : 0;
     const x = GUTTER + clamp(share, 0, 1) * (this.area.clientWidth - GUTTER - EDGE);
     this.cursor.style.transform = `translateX(${x}px)`;
+    const there = this.other?.film.frameAt(time);
     for (const [k, { value }] of this.entries.entries()) {
-      value.textContent = measure(this.panel.curves[k].values[frame], this.panel.unit);
+      const { name, values } = this.panel.curves[k];
+      const same = this.other?.curves.find((curve) => curve.name === name);
+      const beside = same ? ` (dotted ${measure(same.values[there], this.panel.unit)})` : "";
+      value.textContent = measure(values[frame], this.panel.unit) + beside;
     }
   }
 }
