@@ -31,7 +31,8 @@ pub(super) fn hits(frames: &[&Frame], quantum: Quantum) -> (usize, Bytes) {
 /// How many pairs ever press on each other, and of each the frames in which it does, with a column for each of its numbers:
 /// what rests is noughts.
 pub(super) fn touches(frames: &[&Frame], quantum: Quantum) -> (usize, Bytes) {
-    let mut pairs: BTreeMap<(u32, u32, usize), Vec<(usize, &Touch)>> = BTreeMap::new();
+    type Seen<'a> = Vec<(usize, &'a Touch)>;
+    let mut pairs: BTreeMap<(u32, u32, usize), Seen> = BTreeMap::new();
     for (index, frame) in frames.iter().enumerate() {
         let (mut last, mut nth) = (None, 0);
         for touch in &frame.touches {
