@@ -7,6 +7,7 @@ use std::io::ErrorKind;
 use std::path::{Component, Path, PathBuf};
 
 use crate::error::{Complaint, Diagnostic};
+use crate::options::Reads;
 use crate::suggest::nearest;
 
 /// No script, scene or model is larger than that; what is, was not meant.
@@ -20,6 +21,7 @@ pub(crate) struct Library {
     texts: RefCell<BTreeMap<String, String>>,
     /// The models, for the record.
     models: RefCell<BTreeMap<String, String>>,
+    reads: Reads,
 }
 
 /// A file that was found.
@@ -41,7 +43,7 @@ impl Found {
 impl Library {
     /// For a script, and the library given or, failing that, the nearest folder above the script that is
     /// named `scenarios`.
-    pub(crate) fn new(script: &Path, library: Option<&Path>) -> Self {
+    pub(crate) fn new(script: &Path, library: Option<&Path>, reads: Reads) -> Self {
         let folder = match script.parent() {
             Some(parent) if !parent.as_os_str().is_empty() => parent.to_owned(),
             _ => PathBuf::from("."),
@@ -52,6 +54,7 @@ impl Library {
             roots: std::iter::once(folder).chain(library).collect(),
             texts: RefCell::default(),
             models: RefCell::default(),
+            reads,
         }
     }
 
@@ -67,6 +70,7 @@ impl Library {
         let roots: Vec<PathBuf> = self.roots.iter().filter_map(|root| root.canonicalize().ok()).collect();
         for root in &self.roots {
             let shown = if root == Path::new(".") { relative.clone() } else { root.join(&relative) };
+            self.reads.tell(&shown);
             let Ok(canonical) = root.join(&relative).canonicalize() else { continue };
             if !roots.iter().any(|root| canonical.starts_with(root)) {
                 return Err(Complaint::new(format!(

@@ -4,16 +4,17 @@ use std::path::Path;
 
 use choque_engine::{Scene, SceneError};
 
+use crate::control::{self, Control};
 use crate::error::{Complaint, Diagnostic};
 use crate::options::Options;
 use crate::params::Params;
 use crate::syntax::lower;
 
-/// Reads a scene, with everything said from outside applied.
+/// Reads a scene, with everything said from outside applied, and what may be tuned of it.
 ///
 /// # Errors
 /// What is no scene, with its line; a `--set` that nothing answers to.
-pub(crate) fn read(file: &Path, text: &str, options: &Options) -> Result<Scene, Diagnostic> {
+pub(crate) fn read(file: &Path, text: &str, options: &Options) -> Result<(Scene, Vec<Control>), Diagnostic> {
     let mut scene: Scene = ron::from_str(text).map_err(|error| {
         let at = error.span.start;
         Diagnostic::new(format!("not a scene: {}", lower(&error.code.to_string()))).at(file, text, at.line, at.col)
@@ -26,9 +27,11 @@ pub(crate) fn read(file: &Path, text: &str, options: &Options) -> Result<Scene, 
             used.then(|| "a .ron scene is plain data: its params have been used; set them for its script".to_owned());
         return Err(complain(complaint.maybe_hint(hint)));
     }
+    let written = scene.settings.clone();
     params.apply_to(&mut scene.settings);
+    let controls = control::of_settings(&written, &scene.settings).collect();
     options.overrides.apply_to(&mut scene.settings);
-    Ok(scene)
+    Ok((scene, controls))
 }
 
 /// A scene that cannot run, shown at the line that names the body.

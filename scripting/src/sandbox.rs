@@ -5,7 +5,6 @@
 
 use std::cell::RefCell;
 use std::rc::Rc;
-use std::time::Duration;
 
 use rhai::packages::{
     BasicArrayPackage, BasicFnPackage, BasicIteratorPackage, BasicMapPackage, BasicStringPackage, MoreStringPackage,
@@ -13,7 +12,7 @@ use rhai::packages::{
 };
 use rhai::{AST, Dynamic, Engine, EvalAltResult, LexError, ParseError, ParseErrorType, Scope, exported_module};
 
-use crate::clock::Clock;
+use crate::clock::{Clock, Stopped};
 use crate::guard;
 use crate::modules::Resolver;
 use crate::options::Output;
@@ -64,9 +63,7 @@ pub(crate) fn engine(session: &Rc<RefCell<Session>>, resolver: Resolver, clock: 
     engine.on_print(move |text| print.write(text));
     engine.on_debug(move |text, _, position| debug.write(&format!("line {}: {text}", position.line().unwrap_or(0))));
     let clock = clock.clone();
-    engine.on_progress(move |operations| {
-        clock.has_run_out(operations).then(|| Dynamic::from(OutOfTime { given: clock.limit() }))
-    });
+    engine.on_progress(move |operations| clock.look(operations).map(Dynamic::from));
     engine
 }
 
@@ -122,14 +119,8 @@ pub(crate) fn compile(engine: &Engine, text: &str) -> Result<AST, ParseError> {
 /// What opens a comment over several lines.
 pub(crate) const OPEN_COMMENT: &str = "/*";
 
-/// Why a script was stopped.
-#[derive(Clone)]
-struct OutOfTime {
-    given: Duration,
-}
-
-/// How much time a script was given that ran out of it.
-pub(crate) fn time_given(error: &EvalAltResult) -> Option<Duration> {
+/// Why a script was stopped, if it was.
+pub(crate) fn why_stopped(error: &EvalAltResult) -> Option<Stopped> {
     let EvalAltResult::ErrorTerminated(token, _) = error else { return None };
-    token.read_lock::<OutOfTime>().map(|token| token.given)
+    token.read_lock::<Stopped>().map(|stopped| *stopped)
 }

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use choque_engine::{Scene, SceneError, World, check};
 
 use crate::callbacks::Callbacks;
+use crate::control::Control;
 use crate::error::{Complaint, Diagnostic};
 use crate::library::read_text;
 use crate::options::Options;
@@ -24,6 +25,7 @@ pub struct Scenario {
     name: String,
     scene: Scene,
     callbacks: Callbacks,
+    controls: Vec<Control>,
     source: Source,
 }
 
@@ -33,6 +35,15 @@ enum Source {
     /// A `.rhai` script, ready for the first run; later runs make it ready again, so that none sees what
     /// another has done to the variables of a closure or to the generator.
     Script(Box<RefCell<Option<Script>>>),
+}
+
+/// What a file was made into.
+struct Made {
+    source: Source,
+    scene: Scene,
+    callbacks: Callbacks,
+    controls: Vec<Control>,
+    others: Vec<(String, String)>,
 }
 
 impl Scenario {
@@ -47,16 +58,20 @@ impl Scenario {
             Some("ron") => false,
             _ => return Err(unknown_kind(file)),
         };
+        options.reads.tell(file);
         let text = read_text(file, file)?;
-        let (source, scene, callbacks, others) = if is_script {
-            let (script, scene) = Script::prepare(file, &text, options)?;
-            let (callbacks, others) = (script.callbacks, script.texts_read());
-            (Source::Script(Box::new(RefCell::new(Some(script)))), scene, callbacks, others)
+        let Made { source, scene, callbacks, controls, others } = if is_script {
+            let (mut script, scene) = Script::prepare(file, &text, options)?;
+            let (callbacks, others, controls) =
+                (script.callbacks, script.texts_read(), std::mem::take(&mut script.controls));
+            Made { source: Source::Script(Box::new(RefCell::new(Some(script)))), scene, callbacks, controls, others }
         } else {
-            (Source::Plain, plain::read(file, &text, options)?, Callbacks::default(), Vec::new())
+            let (scene, controls) = plain::read(file, &text, options)?;
+            Made { source: Source::Plain, scene, callbacks: Callbacks::default(), controls, others: Vec::new() }
         };
         let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        Ok(Scenario { file: file.to_owned(), text, others, options: options.clone(), name, scene, callbacks, source })
+        let (file, options) = (file.to_owned(), options.clone());
+        Ok(Scenario { file, text, others, options, name, scene, callbacks, controls, source })
     }
 
     /// The scene, with every `--set` and override applied.
@@ -101,6 +116,18 @@ impl Scenario {
     #[must_use]
     pub fn callbacks(&self) -> Callbacks {
         self.callbacks
+    }
+
+    /// What may be tuned of it: the settings that `--set` reaches, then the script's params in their order.
+    #[must_use]
+    pub fn controls(&self) -> &[Control] {
+        &self.controls
+    }
+
+    /// The text of the file it was read from, without a byte order mark.
+    #[must_use]
+    pub fn text(&self) -> &str {
+        &self.text
     }
 
     /// A run from the start; several runs of one scenario know nothing of each other.

@@ -10,6 +10,8 @@ use rhai::{AST, Dynamic, Engine, GlobalRuntimeState, Module, NativeCallContext, 
 use crate::blame::Blame;
 use crate::callbacks::Callbacks;
 use crate::clock::Clock;
+use crate::control::{self, Control};
+use crate::draft::Draft;
 use crate::error::{Complaint, Diagnostic};
 use crate::expectation::Pending;
 use crate::library::{Found, Library};
@@ -33,17 +35,26 @@ pub(crate) struct Script {
     surroundings: GlobalRuntimeState,
     /// Where each body was made.
     sites: Vec<Site>,
+    /// What may be tuned.
+    pub(crate) controls: Vec<Control>,
+}
+
+/// What the main part of a script left behind.
+struct Finished {
+    scene: Scene,
+    sites: Vec<Site>,
+    controls: Vec<Control>,
 }
 
 impl Script {
     /// Compiles a script and runs its main part; gives the scene it makes.
     pub(crate) fn prepare(file: &Path, text: &str, options: &Options) -> Result<(Script, Scene), Diagnostic> {
-        let library = Rc::new(Library::new(file, options.library.as_deref()));
+        let library = Rc::new(Library::new(file, options.library.as_deref(), options.reads.clone()));
         let name = file.display().to_string();
         library.keep(&name, text);
         let params = Params::new(&options.set).map_err(|complaint| Diagnostic::of(complaint).in_file(file))?;
         let session = Rc::new(RefCell::new(Session::new(params, library.clone())));
-        let clock = Clock::new(options.script_timeout);
+        let clock = Clock::new(options.script_timeout, options.stop.clone());
         let resolver = Resolver::new(library.clone(), Found::itself(file));
         let engine = sandbox::engine(&session, resolver, &clock, &options.output);
         let blame = Blame { engine: &engine, library: &library, script: &name };
@@ -58,9 +69,11 @@ impl Script {
         let pending = std::mem::take(&mut session.borrow_mut().pending);
         let surroundings = outcome.map_err(|error| blame.error(&error, None))?;
         let finished = finish(&mut session.borrow_mut(), options);
-        let (scene, sites) = finished.map_err(|complaint| blame.complaint_of_script(complaint))?;
+        let Finished { scene, sites, controls } = finished.map_err(|complaint| blame.complaint_of_script(complaint))?;
         let callbacks = callbacks.counting(&pending);
-        Ok((Script { engine, clock, library, name, session, callbacks, pending, surroundings, sites }, scene))
+        let script =
+            Script { engine, clock, library, name, session, callbacks, pending, surroundings, sites, controls };
+        Ok((script, scene))
     }
 
     /// Lets the world begin: from now on words see it instead of the scene.
@@ -136,14 +149,16 @@ fn run_main_part(engine: &Engine, ast: &AST) -> RhaiResultOf<GlobalRuntimeState>
     Ok(surroundings)
 }
 
-/// The scene, with everything said from outside applied, and where its bodies were made.
-fn finish(session: &mut Session, options: &Options) -> Result<(Scene, Vec<Site>), Complaint> {
+/// The scene, with everything said from outside applied; where its bodies were made; what may be tuned.
+fn finish(session: &mut Session, options: &Options) -> Result<Finished, Complaint> {
     if let Some(complaint) = session.params.unanswered() {
         return Err(complaint);
     }
-    let mut draft = std::mem::take(session.draft("")?);
-    draft.scene.params = session.params.record();
-    session.params.apply_to(&mut draft.scene.settings);
-    options.overrides.apply_to(&mut draft.scene.settings);
-    Ok((draft.scene, draft.sites))
+    let Draft { mut scene, sites, .. } = std::mem::take(session.draft("")?);
+    scene.params = session.params.record();
+    let written = scene.settings.clone();
+    session.params.apply_to(&mut scene.settings);
+    let controls = control::of_settings(&written, &scene.settings).chain(session.params.controls()).collect();
+    options.overrides.apply_to(&mut scene.settings);
+    Ok(Finished { scene, sites, controls })
 }

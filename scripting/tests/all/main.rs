@@ -9,6 +9,7 @@ mod ledger;
 mod manual;
 mod mathematics;
 mod params;
+mod rewriting;
 mod sandbox;
 mod support;
 mod words;
