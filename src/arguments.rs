@@ -138,7 +138,8 @@ fn assignment(text: &str) -> Result<(String, f64), String> {
     }
 }
 
-fn seconds(text: &str) -> Result<Duration, String> {
+/// A time, longer than none.
+pub(crate) fn seconds(text: &str) -> Result<Duration, String> {
     let seconds = check::positive("it", number(text)?).map_err(|bad| bad.to_string())?;
     Duration::try_from_secs_f64(seconds).map_err(|_| "that is longer than any run".to_owned())
 }

@@ -12,6 +12,8 @@ use crate::render::RenderArguments;
 use crate::report::ReportArguments;
 use crate::run::RunArguments;
 use crate::{Error, Verdict, check, diff, explain, export, init, render, report, run, terminal, words};
+use crate::studio::StudioArguments;
+use crate::{Error, Verdict, check, explain, export, init, render, report, run, studio, terminal, words};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -84,6 +86,12 @@ Examples:
 
 Exit codes: 0 the same to the last bit, 1 they differ, 2 the input or the call is wrong.")]
     Diff(DiffArguments),
+    /// Serve a page on this machine that plays scenarios, tunes them and writes them back
+    #[command(after_help = "\
+Examples:
+  choque studio                          the nearest folder named scenarios
+  choque studio my_game --port 8000      another one, always at the same port")]
+    Studio(StudioArguments),
     /// Write a scenario's scene as plain data, without callbacks
     #[command(after_help = "\
 Examples:
@@ -153,6 +161,7 @@ impl Call {
             Call::Report(arguments) => report::report(arguments),
             Call::Render(arguments) => render::render(arguments),
             Call::Diff(arguments) => diff::diff(arguments),
+            Call::Studio(arguments) => studio::studio(arguments),
             Call::Export { file, output, scenario } => export::export(file, output.as_deref(), &scenario.options()),
             Call::Words { name, definitions } => words::words(name.as_deref(), definitions.as_deref()),
             Call::Init { directory, choque_path } => init::init(directory, choque_path.as_deref()),

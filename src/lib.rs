@@ -5,6 +5,7 @@
 //! | calls and flags | [`cli`], [`arguments`] |
 //! | a scenario played to its end, and what is told of it | [`play`], [`outcome`], [`books`], [`readings`], [`notable`] |
 //! | what each call does | [`run`], [`check`], [`explain`], [`export`], [`words`], [`init`], [`report`], [`render`], [`diff`](mod@diff) |
+//! | what each call does | [`run`], [`check`], [`explain`], [`export`], [`words`], [`init`], [`report`], [`render`], [`studio`] |
 //! | a run kept to the last bit | [`recording`] |
 //! | a run as a page that plays it | [`player`] |
 //! | how it is printed | [`output`], [`plot`], [`written`], [`terminal`], [`progress`], [`clock`] |
@@ -35,6 +36,7 @@ pub mod recording;
 pub mod render;
 pub mod report;
 pub mod run;
+pub mod studio;
 pub mod terminal;
 pub mod words;
 pub mod written;

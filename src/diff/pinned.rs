@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::told::{Found, comparison};
 use crate::Error;
-use crate::harness::{MeetingRow, Snapshot, read_snapshot, rounded};
+use crate::harness::{MeetingRow, Snapshot, pinned, rounded};
 use crate::outcome::hexadecimal;
 use crate::output::table::{Side, table};
 use crate::recording::{Frame, Recording, Strike};
@@ -33,7 +33,7 @@ pub fn snapshot_of(script: &Path) -> Result<PathBuf, Error> {
 /// # Errors
 /// A file that cannot be read, or is none.
 pub fn read(path: &Path) -> Result<Snapshot, Error> {
-    read_snapshot(path).map_err(|why| Error::Call {
+    pinned(path).map_err(|why| Error::Call {
         message: format!("cannot read the snapshot {}: {why}", path.display()),
         hint: "cargo insta test --review writes it anew".to_owned(),
     })

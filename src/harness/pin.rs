@@ -77,7 +77,7 @@ fn words(case: &Case, new: &Snapshot) -> Option<String> {
     if fs::metadata(&case.snapshot).is_err() {
         return Some("it has no snapshot yet; look at the one below and accept it if it is right".to_owned());
     }
-    match read(&case.snapshot) {
+    match pinned(&case.snapshot) {
         Ok(old) => in_words(&old, new),
         Err(why) => Some(format!(
             "its snapshot cannot be read, so nothing can be said about what moved: it was edited by hand, or written by \
@@ -86,7 +86,11 @@ fn words(case: &Case, new: &Snapshot) -> Option<String> {
     }
 }
 
-pub(crate) fn read(path: &Path) -> Result<Snapshot, String> {
+/// What a snapshot's file holds.
+///
+/// # Errors
+/// Why it cannot be read.
+pub fn pinned(path: &Path) -> Result<Snapshot, String> {
     let file = insta::Snapshot::from_file(path).map_err(|error| error.to_string())?;
     let text = file.as_text().ok_or("it is no text")?.to_string();
     Snapshot::from_text(&text).map_err(|error| error.to_string())

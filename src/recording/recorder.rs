@@ -111,6 +111,14 @@ impl Recorder<InMemory> {
         Recorder::begin(scenario, run, settings, |about, bodies| InMemory { about, bodies, frames: Vec::new() })
     }
 
+    /// The recording of what has been played so far.
+    #[must_use]
+    pub fn so_far(&self) -> Recording {
+        let InMemory { about, bodies, frames } = &self.frames;
+        let ending = Ending { steps: self.last, ..Ending::default() };
+        Recording { about: about.clone(), bodies: bodies.clone(), frames: frames.clone(), ending }
+    }
+
     /// The recording of a run that has ended so.
     #[must_use]
     pub fn finish(mut self, world: &World, judgements: &[Judgement]) -> Recording {

@@ -15,5 +15,6 @@ mod render;
 mod report;
 mod snapshots;
 mod stability;
+mod studio;
 mod support;
 mod tidy;
