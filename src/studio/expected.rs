@@ -1,5 +1,6 @@
 //! The end that a scenario's snapshot expects: what a page lays over the end that came out.
 
+use std::f64::consts::TAU;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -70,6 +71,7 @@ impl Expected {
             let (x, z) = (position.x - row.x, position.y - row.z);
             let distance = (x * x + z * z).sqrt();
             let turned = (world.angle(id) - row.angle).abs();
+            let turned = turned.min(TAU - turned); // half a turn either way is the same
             if distance > 2.0 * ROUNDING || turned > 2.0 * ROUNDING {
                 difference.moved += 1;
             }

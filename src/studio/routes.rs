@@ -12,6 +12,7 @@ use axum::http::{HeaderMap, StatusCode, header};
 use axum::middleware::from_fn_with_state;
 use axum::response::{IntoResponse, Response};
 use axum::routing::{get, post};
+use choque_scripting::{Options, Output};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::json;
@@ -36,8 +37,8 @@ pub(super) struct Studio {
     queue: Queue,
     /// Of each scenario that was run, the files it was made of.
     seen: Mutex<BTreeMap<String, Seen>>,
-    /// Two pages do not write at once.
-    writing: Mutex<()>,
+    /// Two pages do not write at once; whoever waits takes no thread meanwhile.
+    writing: Arc<tokio::sync::Mutex<()>>,
 }
 
 impl Studio {
@@ -47,7 +48,7 @@ impl Studio {
         run_timeout: Duration,
         places: usize,
     ) -> Self {
-        let (queue, seen, writing) = (Queue::new(places), Mutex::default(), Mutex::default());
+        let (queue, seen, writing) = (Queue::new(places), Mutex::default(), Arc::default());
         Studio { catalogue, arguments, run_timeout, queue, seen, writing }
     }
 
@@ -148,9 +149,12 @@ struct SaveQuestion {
 async fn write_back(State(studio): Shared, headers: HeaderMap, body: Bytes) -> Answer {
     let SaveQuestion { scenario, digest, set } = question(&headers, &body)?;
     let path = script(&studio, scenario).await?;
+    let alone = studio.writing.clone().lock_owned().await;
     elsewhere(move || {
-        let _alone = studio.writing.lock().unwrap_or_else(PoisonError::into_inner);
-        match save(&path, &digest, &set, &studio.arguments.options()) {
+        let _alone = alone;
+        // What the script prints has been on the page already.
+        let options = Options { output: Output::to(|_| ()), ..studio.arguments.options() };
+        match save(&path, &digest, &set, &options) {
             Ok(saved) => Ok(json!(saved).to_string()),
             Err(refused) => {
                 let status = if matches!(refused, Refused::File(_)) {

@@ -106,6 +106,9 @@ fn replace_unchanged(path: &Path, old: &str, new: &str) -> Result<(), Refused> {
         Ok(()) if fs::read(beside.path())? == old.as_bytes() => Ok(()),
         Ok(()) => {
             exchange(beside.path(), &path)?;
+            if fs::read(beside.path())? != new.as_bytes() {
+                exchange(beside.path(), &path)?; // saved once more: the last one stays
+            }
             Err(Refused::Changed)
         }
         Err(_) => {

@@ -5,7 +5,7 @@ use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
 use std::path::Path;
 use std::process::{Child, Stdio};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use serde_json::{Value, json};
 use tempfile::TempDir;
@@ -417,9 +417,7 @@ fn runs_that_nobody_waits_for_any_more_make_room() {
         page.set_read_timeout(Some(Duration::from_millis(20))).expect("a time");
         let _ = page.read(&mut [0]);
     }
-    let begun = Instant::now();
-    studio.run("ball.rhai", &json!([])).event("done");
-    assert!(begun.elapsed() < PATIENCE, "{:?}", begun.elapsed());
+    studio.run("ball.rhai", &json!([])).event("done"); // within the time that an answer is waited for
 }
 
 #[test]

@@ -102,10 +102,7 @@ async function show(bytes, current) {
   const waited = performance.now() - current.since;
   const reaches = film.times.at(-1) >= Math.min(current.end, desk.scene.steps * desk.scene.time_step * (1 - 1e-9));
   // Someone who looks at the end should not see the picture jump there and back.
-  if (!reaches && waited < FLICKER && desk.film && desk.filmOf === desk.open) {
-    current.waits = false;
-    return;
-  }
+  if (!reaches && waited < FLICKER && desk.film && desk.filmOf === desk.open) return;
   const [first, resumes] = [desk.filmOf !== desk.open, player.playing || current.pausedAtEdge];
   byId("player").hidden = false;
   byId("player").classList.remove("stale");
