@@ -43,15 +43,15 @@ export class List {
   #show() {
     const wanted = this.filter.value.trim().toLowerCase();
     const matches = ({ id, about }) => `${id} ${about}`.toLowerCase().includes(wanted);
-    const folders = new Map();
+    const folders = new Map([["", []]]); // what lies in no folder stands first, under no heading
     for (const scenario of this.#scenarios.filter(matches)) {
       const at = scenario.id.lastIndexOf("/");
       const folder = scenario.id.slice(0, Math.max(at, 0));
       folders.set(folder, [...(folders.get(folder) ?? []), scenario]);
     }
     const link = ({ id, about }) =>
-      el("li", {}, el("a", { href: `#${encodeURI(id)}`, title: about, "data-id": id, text: name(id) }));
-    const parts = [...folders].flatMap(([folder, scenarios]) => [
+      el("li", {}, el("a", { href: `#${encodeURI(id)}`, title: about, "data-id": id, text: breakable(name(id)) }));
+    const parts = [...folders].filter(([, scenarios]) => scenarios.length).flatMap(([folder, scenarios]) => [
       ...(folder ? [el("h3", { text: folder })] : []),
       el("ul", {}, ...scenarios.map(link)),
     ]);
@@ -81,6 +81,9 @@ export class List {
     else links[at + by]?.focus();
   }
 }
+
+/** Long names break after an underscore. */
+const breakable = (text) => text.replaceAll("_", "_\u200b");
 
 /** A scenario's name without its folder and extension. */
 export function name(id) {

@@ -151,6 +151,7 @@ function showScene(scene) {
     saved(`No longer in the script, or out of its bounds: ${scene.dropped.join(", ")}.`);
   }
   sliders.show(scene.sliders);
+  byId("script").hidden = false;
   byId("script").querySelector("pre").replaceChildren(choque.lit(scene.text));
   const notes = byId("notes");
   notes.hidden = scene.notes.length === 0;
@@ -268,6 +269,7 @@ function open(id) {
   Object.assign(desk, { open: id, run: null, scene: null, outcome: null, stamp: null, ghostsChosen: null });
   sliders.moved = new Map(JSON.parse(sessionStorage.getItem(store(id)) ?? "[]"));
   byId("saved").replaceChildren();
+  for (const panel of ["notes", "printed", "script"]) byId(panel).hidden = true; // until there is one
   list.choose(id);
   start();
 }
