@@ -56,6 +56,7 @@ mod source;
 mod suggest;
 mod syntax;
 pub mod words;
+mod write_back;
 
 pub use callbacks::Callbacks;
 pub use control::Control;
@@ -65,3 +66,4 @@ pub use options::{Options, Output, Overrides, Reads, Stop};
 pub use rewrite::rewrite;
 pub use run::{Moment, Run, Step};
 pub use scenario::Scenario;
+pub use write_back::write_back;

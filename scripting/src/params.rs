@@ -15,6 +15,18 @@ use crate::suggest::did_you_mean;
 /// Settings that `--set` reaches by their own names.
 pub(crate) const SETTINGS: [&str; 5] = ["mu_l", "mu_a", "epsilon", "restitution", "friction"];
 
+/// The value of one of them.
+pub(crate) fn setting(settings: &Settings, name: &str) -> Option<f64> {
+    match name {
+        "mu_l" => Some(settings.mu_l),
+        "mu_a" => Some(settings.mu_a),
+        "epsilon" => Some(settings.epsilon),
+        "restitution" => Some(settings.restitution),
+        "friction" => Some(settings.friction),
+        _ => None,
+    }
+}
+
 /// Tunable numbers a script may declare.
 const MOST_PARAMS: usize = 1000;
 

@@ -13,6 +13,7 @@ mod rewriting;
 mod sandbox;
 mod support;
 mod words;
+mod write_back;
 mod wrong_names;
 mod wrong_places;
 mod wrong_rules;
