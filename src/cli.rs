@@ -11,8 +11,8 @@ use crate::diff::DiffArguments;
 use crate::render::RenderArguments;
 use crate::report::ReportArguments;
 use crate::run::RunArguments;
-use crate::{Error, Verdict, check, diff, explain, export, init, render, report, run, terminal, words};
 use crate::studio::StudioArguments;
+use crate::{Error, Verdict, check, diff, explain, export, init, render, report, run, terminal, words};
 use crate::{Error, Verdict, check, explain, export, init, render, report, run, studio, terminal, words};
 
 const EXAMPLES: &str = "\

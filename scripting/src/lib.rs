@@ -25,6 +25,7 @@
 //! # Ok::<(), choque_scripting::Diagnostic>(())
 //! ```
 
+mod bare_names;
 mod blame;
 mod callbacks;
 mod calls;
@@ -33,6 +34,7 @@ mod control;
 mod draft;
 mod error;
 mod expectation;
+mod fit;
 mod generator;
 mod guard;
 mod handles;
@@ -62,6 +64,7 @@ pub use callbacks::Callbacks;
 pub use control::Control;
 pub use error::Diagnostic;
 pub use expectation::Expectation;
+pub use fit::{Target, Varied};
 pub use options::{Options, Output, Overrides, Reads, Stop};
 pub use rewrite::rewrite;
 pub use run::{Moment, Run, Step};

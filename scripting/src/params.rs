@@ -166,7 +166,7 @@ impl Declared {
     }
 }
 
-fn check_setting(name: &str, value: f64) -> Result<f64, choque_engine::BadNumber> {
+pub(crate) fn check_setting(name: &str, value: f64) -> Result<f64, choque_engine::BadNumber> {
     match name {
         "mu_l" | "mu_a" | "epsilon" | "friction" => check::not_negative(name, value),
         "restitution" => check::unit_range(name, value),

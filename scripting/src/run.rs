@@ -11,6 +11,7 @@ use rhai::Dynamic;
 use crate::callbacks::{ON_COLLISION, ON_STEP, STOP_WHEN};
 use crate::error::{Complaint, Diagnostic};
 use crate::expectation::{Expectation, Failure, When, judge};
+use crate::fit::{self, Target};
 use crate::handles;
 use crate::number::must_give;
 use crate::plain;
@@ -148,6 +149,17 @@ impl Run {
         scripted.judge(When::AtTheEnd)?;
         let told = scripted.script.pending.iter().zip(&scripted.failures);
         Ok(told.map(|(pending, failure)| Expectation::new(&pending.text, failure.as_ref())).collect())
+    }
+}
+
+impl Run {
+    /// What the targets of the script come to on the world as it stands, in the script's order.
+    ///
+    /// # Errors
+    /// An error in a target.
+    pub fn measure(&self) -> Result<Vec<Target>, Diagnostic> {
+        let Source::Script(scripted) = &self.source else { return Ok(Vec::new()) };
+        scripted.script.aims.iter().map(|aim| fit::measure(&scripted.script, aim)).collect()
     }
 }
 

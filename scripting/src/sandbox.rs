@@ -12,6 +12,7 @@ use rhai::packages::{
 };
 use rhai::{AST, Dynamic, Engine, EvalAltResult, LexError, ParseError, ParseErrorType, Scope, exported_module};
 
+use crate::bare_names;
 use crate::clock::{Clock, Stopped};
 use crate::guard;
 use crate::modules::Resolver;
@@ -80,6 +81,7 @@ pub(crate) fn bare_engine() -> Engine {
     engine.register_global_module(exported_module!(repairs::module).into());
     words::register(&mut engine);
     guard::watch_variables(&mut engine);
+    bare_names::let_settings_stand_bare(&mut engine);
     engine
         .disable_symbol("eval")
         // `f = f.curry(f)` would double what nobody weighs, and so would what a function makes of `this`.

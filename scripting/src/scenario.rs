@@ -9,6 +9,7 @@ use choque_engine::{Scene, SceneError, World, check};
 use crate::callbacks::Callbacks;
 use crate::control::Control;
 use crate::error::{Complaint, Diagnostic};
+use crate::fit::{Varied, Wanted};
 use crate::library::read_text;
 use crate::options::Options;
 use crate::plain;
@@ -26,6 +27,7 @@ pub struct Scenario {
     scene: Scene,
     callbacks: Callbacks,
     controls: Vec<Control>,
+    wanted: Wanted,
     source: Source,
 }
 
@@ -43,6 +45,7 @@ struct Made {
     scene: Scene,
     callbacks: Callbacks,
     controls: Vec<Control>,
+    wanted: Wanted,
     others: Vec<(String, String)>,
 }
 
@@ -60,18 +63,27 @@ impl Scenario {
         };
         options.reads.tell(file);
         let text = read_text(file, file)?;
-        let Made { source, scene, callbacks, controls, others } = if is_script {
+        let Made { source, scene, callbacks, controls, wanted, others } = if is_script {
             let (mut script, scene) = Script::prepare(file, &text, options)?;
             let (callbacks, others, controls) =
                 (script.callbacks, script.texts_read(), std::mem::take(&mut script.controls));
-            Made { source: Source::Script(Box::new(RefCell::new(Some(script)))), scene, callbacks, controls, others }
+            let wanted = Wanted { varied: std::mem::take(&mut script.varied), targets: script.aims.len() };
+            let source = Source::Script(Box::new(RefCell::new(Some(script))));
+            Made { source, scene, callbacks, controls, wanted, others }
         } else {
             let (scene, controls) = plain::read(file, &text, options)?;
-            Made { source: Source::Plain, scene, callbacks: Callbacks::default(), controls, others: Vec::new() }
+            Made {
+                source: Source::Plain,
+                scene,
+                callbacks: Callbacks::default(),
+                controls,
+                wanted: Wanted::default(),
+                others: Vec::new(),
+            }
         };
         let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let (file, options) = (file.to_owned(), options.clone());
-        Ok(Scenario { file, text, others, options, name, scene, callbacks, controls, source })
+        Ok(Scenario { file, text, others, options, name, scene, callbacks, controls, wanted, source })
     }
 
     /// The scene, with every `--set` and override applied.
@@ -128,6 +140,18 @@ impl Scenario {
     #[must_use]
     pub fn text(&self) -> &str {
         &self.text
+    }
+
+    /// What the script says may vary, in its order.
+    #[must_use]
+    pub fn varied(&self) -> &[Varied] {
+        &self.wanted.varied
+    }
+
+    /// How many targets the script has.
+    #[must_use]
+    pub fn targets(&self) -> usize {
+        self.wanted.targets
     }
 
     /// A run from the start; several runs of one scenario know nothing of each other.

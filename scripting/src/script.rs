@@ -14,6 +14,7 @@ use crate::control::{self, Control};
 use crate::draft::Draft;
 use crate::error::{Complaint, Diagnostic};
 use crate::expectation::Pending;
+use crate::fit::{Aim, Variable, Varied};
 use crate::library::{Found, Library};
 use crate::modules::Resolver;
 use crate::options::Options;
@@ -31,6 +32,8 @@ pub(crate) struct Script {
     pub(crate) session: Rc<RefCell<Session>>,
     pub(crate) callbacks: Callbacks,
     pub(crate) pending: Vec<Pending>,
+    pub(crate) aims: Vec<Aim>,
+    pub(crate) varied: Vec<Varied>,
     /// Where callbacks run: the script's functions, with its imports and constants around them.
     surroundings: GlobalRuntimeState,
     /// Where each body was made.
@@ -67,12 +70,27 @@ impl Script {
         let outcome = run_main_part(&engine, &ast);
         // Taken out even when the script failed: expectations hold on to the session, and would keep it for ever.
         let pending = std::mem::take(&mut session.borrow_mut().pending);
+        let aims = std::mem::take(&mut session.borrow_mut().aims);
         let surroundings = outcome.map_err(|error| blame.error(&error, None))?;
         let finished = finish(&mut session.borrow_mut(), options);
         let Finished { scene, sites, controls } = finished.map_err(|complaint| blame.complaint_of_script(complaint))?;
+        let varied =
+            varied(&session.borrow(), &scene).map_err(|(complaint, site)| blame.complaint_at(complaint, &site))?;
         let callbacks = callbacks.counting(&pending);
-        let script =
-            Script { engine, clock, library, name, session, callbacks, pending, surroundings, sites, controls };
+        let script = Script {
+            engine,
+            clock,
+            library,
+            name,
+            session,
+            callbacks,
+            pending,
+            aims,
+            varied,
+            surroundings,
+            sites,
+            controls,
+        };
         Ok((script, scene))
     }
 
@@ -161,4 +179,10 @@ fn finish(session: &mut Session, options: &Options) -> Result<Finished, Complain
     let controls = control::of_settings(&written, &scene.settings).chain(session.params.controls()).collect();
     options.overrides.apply_to(&mut scene.settings);
     Ok(Finished { scene, sites, controls })
+}
+
+/// What may vary, looked up in the scene; with where the script says so when it cannot be.
+fn varied(session: &Session, scene: &Scene) -> Result<Vec<Varied>, (Complaint, Site)> {
+    let resolved = |variable: &Variable| variable.resolve(scene).map_err(|wrong| (wrong, variable.site.clone()));
+    session.variables.iter().map(resolved).collect()
 }

@@ -12,6 +12,7 @@ use rhai::{Dynamic, EvalAltResult, ImmutableString, NativeCallContext, Position}
 use crate::draft::Draft;
 use crate::error::Complaint;
 use crate::expectation::{Pending, Reading};
+use crate::fit::{Aim, Variable};
 use crate::generator::Generator;
 use crate::library::Library;
 use crate::params::Params;
@@ -48,6 +49,10 @@ pub(crate) struct Session {
     pub(crate) generator: Generator,
     /// What the script expects, in its order; taken out when the main part has ended.
     pub(crate) pending: Vec<Pending>,
+    /// What it wants of a run, likewise.
+    pub(crate) aims: Vec<Aim>,
+    /// What may vary for that.
+    pub(crate) variables: Vec<Variable>,
     /// What an expectation reads while it is being judged; `None` while none is.
     pub(crate) readings: Option<Vec<Reading>>,
     /// The room that readings had last time.
@@ -88,7 +93,8 @@ impl Session {
     pub(crate) fn new(params: Params, library: Rc<Library>) -> Self {
         let phase = Phase::Building(Box::default());
         let generator = Generator::new(0);
-        Session { phase, params, generator, pending: Vec::new(), readings: None, spare: Vec::new(), library }
+        let (pending, aims, variables) = (Vec::new(), Vec::new(), Vec::new());
+        Session { phase, params, generator, pending, aims, variables, readings: None, spare: Vec::new(), library }
     }
 
     /// The scene being built, for a word that builds.
@@ -110,10 +116,10 @@ impl Session {
         }
     }
 
-    /// The world, for a word that changes it: an expectation only looks.
+    /// The world, for a word that changes it: an expectation or a target only looks.
     pub(crate) fn changing(&self) -> Result<&Running, Complaint> {
         if self.readings.is_some() {
-            return Err(Complaint::new("an expectation only looks: it must not change the world")
+            return Err(Complaint::new("an expectation or a target only looks: it must not change the world")
                 .hint("change it in `fn on_step(world)`"));
         }
         self.running()

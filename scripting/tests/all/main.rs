@@ -5,6 +5,7 @@
 mod callbacks;
 mod expectations;
 mod files;
+mod fit;
 mod ledger;
 mod manual;
 mod mathematics;
