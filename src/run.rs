@@ -87,7 +87,7 @@ pub fn run(arguments: &RunArguments) -> Result<Verdict, Error> {
     drop(progress); // clears its line before anything else is printed
     let expectations = played?;
     let world = run.world();
-    let outcome = Outcome::new(&scenario, &world, expectations);
+    let outcome = Outcome::new(&scenario, &world, expectations).with_targets(run.measure()?);
     if let Some(total) = outcome.total_beyond_numbers() {
         return Err(Error::Call {
             message: format!("the {total} is beyond the range of numbers, though no single body is"),
