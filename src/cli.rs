@@ -8,12 +8,14 @@ use clap_complete::Shell;
 
 use crate::arguments::{ScenarioArguments, threads};
 use crate::diff::DiffArguments;
+use crate::fit::FitArguments;
 use crate::render::RenderArguments;
 use crate::report::ReportArguments;
 use crate::run::RunArguments;
 use crate::studio::StudioArguments;
 use crate::{Error, Verdict, check, diff, explain, export, init, render, report, run, terminal, words};
 use crate::{Error, Verdict, check, explain, export, init, render, report, run, studio, terminal, words};
+use crate::{Error, Verdict, check, diff, explain, export, fit, init, render, report, run, terminal, words};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -92,6 +94,15 @@ Examples:
   choque studio                          the nearest folder named scenarios
   choque studio my_game --port 8000      another one, always at the same port")]
     Studio(StudioArguments),
+    /// Find the values with which a scenario does what its script wants, or what a recording shows
+    #[command(after_help = "\
+Examples:
+  choque fit kerb.rhai                                   what its target(…) wants, by what it lets vary(…)
+  choque fit kerb.rhai -o fit.svg --write                … drawn, and the values put into the script
+  choque fit pile.rhai --recording seen.choque --vary mu_l=0..1 --vary mu_a=0..1
+
+Exit codes: 0 every residual is within the tolerance, 1 one is not, 2 the input or the call is wrong.")]
+    Fit(FitArguments),
     /// Write a scenario's scene as plain data, without callbacks
     #[command(after_help = "\
 Examples:
@@ -162,6 +173,7 @@ impl Call {
             Call::Render(arguments) => render::render(arguments),
             Call::Diff(arguments) => diff::diff(arguments),
             Call::Studio(arguments) => studio::studio(arguments),
+            Call::Fit(arguments) => fit::fit(arguments),
             Call::Export { file, output, scenario } => export::export(file, output.as_deref(), &scenario.options()),
             Call::Words { name, definitions } => words::words(name.as_deref(), definitions.as_deref()),
             Call::Init { directory, choque_path } => init::init(directory, choque_path.as_deref()),

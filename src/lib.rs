@@ -22,6 +22,7 @@ pub mod diff;
 pub mod error;
 pub mod explain;
 pub mod export;
+pub mod fit;
 pub mod harness;
 pub mod init;
 pub mod notable;

@@ -9,12 +9,13 @@ use choque_engine::{Scene, SceneError, World, check};
 use crate::callbacks::Callbacks;
 use crate::control::Control;
 use crate::error::{Complaint, Diagnostic};
-use crate::fit::{Varied, Wanted};
+use crate::fit::{Variable, Varied, Wanted};
 use crate::library::read_text;
 use crate::options::Options;
 use crate::plain;
 use crate::run::Run;
 use crate::script::Script;
+use crate::session::Site;
 
 /// A scenario that was read: the scene it describes, and the callbacks it has.
 pub struct Scenario {
@@ -146,6 +147,16 @@ impl Scenario {
     #[must_use]
     pub fn varied(&self) -> &[Varied] {
         &self.wanted.varied
+    }
+
+    /// A number of this scenario that may vary although the script does not say so, or within other bounds.
+    ///
+    /// # Errors
+    /// A name that there is not; bounds that it cannot have.
+    pub fn vary(&self, name: &str, range: (f64, f64)) -> Result<Varied, Diagnostic> {
+        let variable = Variable::new(name, Some(range), Site::nowhere());
+        let varied = variable.and_then(|variable| variable.resolve(&self.scene));
+        varied.map_err(|complaint| Diagnostic::of(complaint).in_file(&self.file))
     }
 
     /// How many targets the script has.

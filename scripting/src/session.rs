@@ -35,6 +35,11 @@ impl Site {
         Site { source: context.call_source().unwrap_or_default().into(), position: context.call_position() }
     }
 
+    /// Of what no script says.
+    pub(crate) fn nowhere() -> Site {
+        Site { source: ImmutableString::new(), position: Position::NONE }
+    }
+
     /// "line 3", or "line 3 of lib/cars.rhai" when seen from another file.
     pub(crate) fn seen_from(&self, other: &Site) -> String {
         let line = self.position.line().unwrap_or(1);
