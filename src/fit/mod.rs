@@ -24,6 +24,7 @@ use std::path::{Path, PathBuf};
 use choque_scripting::{Scenario, Varied, write_back};
 
 use crate::arguments::{ScenarioArguments, number, threads};
+use crate::plot::{Drawing, raster, svg};
 use crate::recording::Recording;
 use crate::report::jobs::cores;
 use crate::terminal::{FAINT, answer, styled, tell};
@@ -60,7 +61,7 @@ pub struct FitArguments {
     /// How the result is printed: json goes to standard output, text to standard error
     #[arg(long, value_enum, default_value_t = Format::Text)]
     pub format: Format,
-    /// Draw how the residual grows when each value is moved
+    /// Draw how the residual grows when each value is moved, as .svg or .png
     #[arg(short, long, value_name = "FILE.svg")]
     pub output: Option<PathBuf>,
     /// Put the values into the script: the numbers in mu_l(…), param("name", …) change, and nothing else
@@ -80,7 +81,10 @@ pub enum Format {
     Json,
 }
 
-const PICTURE: Kind = Kind { what: "plot", extension: "svg", flag: "-o" };
+const SVG: Kind = Kind { what: "plot", extension: "svg", flag: "-o" };
+const PNG: Kind = Kind { extension: "png", ..SVG };
+/// Pixels of a PNG for each of the plot's.
+const SCALE: f64 = 2.0;
 
 /// Finds the values, tells of them, draws and writes what was asked for.
 ///
@@ -89,7 +93,7 @@ const PICTURE: Kind = Kind { what: "plot", extension: "svg", flag: "-o" };
 /// with; a script that has no certain place for a value; files that cannot be written.
 pub fn fit(arguments: &FitArguments) -> Result<Verdict, Error> {
     if let Some(path) = &arguments.output {
-        PICTURE.check(path)?;
+        if is_png(path) { PNG } else { SVG }.check(path)?;
     }
     let scenario = Scenario::load(&arguments.file, &arguments.scenario.options())?;
     let problem = pose(arguments, &scenario)?;
@@ -101,8 +105,7 @@ pub fn fit(arguments: &FitArguments) -> Result<Verdict, Error> {
     let solved = solve::solve(&problem, effort, arguments.tolerance)?;
     let told = solve::answer(&scenario, &problem, &solved, effort, arguments.tolerance)?;
     if let Some(path) = &arguments.output {
-        let figure = picture::figure(&problem, &told, &solved.best, effort.jobs);
-        written::replace(path, crate::plot::svg::svg(&figure.draw()).as_bytes())?;
+        draw(path, &picture::figure(&problem, &told, &solved.best, effort.jobs).draw())?;
     }
     match arguments.format {
         Format::Text => tell(&told::text(&told)),
@@ -112,6 +115,18 @@ pub fn fit(arguments: &FitArguments) -> Result<Verdict, Error> {
         write(arguments, &told)?;
     }
     Ok(if told.met { Verdict::Holds } else { Verdict::ExpectationFailed })
+}
+
+fn is_png(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension == PNG.extension)
+}
+
+fn draw(path: &Path, drawing: &Drawing) -> Result<(), Error> {
+    if is_png(path) {
+        let png = raster::png(drawing, SCALE).ok_or_else(|| Error::unwritable("the plot", &"it is too large"))?;
+        return written::replace(path, png.as_slice());
+    }
+    written::replace(path, svg::svg(drawing).as_bytes())
 }
 
 /// What is to be found, from the script and the call.
@@ -171,9 +186,15 @@ fn write(arguments: &FitArguments, told: &Answer) -> Result<(), Error> {
         tell(&format!("{}\n", styled(FAINT, &format!("{file} stays as it is: the values do not meet what is wanted"))));
         return Ok(());
     }
-    let values: Vec<(String, f64)> = told.values.iter().map(|value| (value.name.clone(), value.value)).collect();
+    let changed = told.values.iter().filter(|value| value.value != value.was);
+    let values: Vec<(String, f64)> = changed.map(|value| (value.name.clone(), value.value)).collect();
+    if values.is_empty() {
+        tell(&format!("{}\n", styled(FAINT, &format!("{file} has these values already"))));
+        return Ok(());
+    }
     written::replace(&arguments.file, rewritten(arguments, &values)?.as_bytes())?;
-    tell(&format!("{}\n", styled(FAINT, &format!("written into {file}"))));
+    let names: Vec<&str> = values.iter().map(|(name, _)| name.as_str()).collect();
+    tell(&format!("{}\n", styled(FAINT, &format!("{} written into {file}", names.join(", ")))));
     Ok(())
 }
 

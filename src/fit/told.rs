@@ -54,8 +54,13 @@ fn values(answer: &Answer) -> String {
     let row = |value: &Value| {
         let [min, max] = value.range;
         let [low, high] = value.interval;
-        let interval =
-            if value.determined { between(low, high) } else { format!("{}, not determined", between(low, high)) };
+        let along: Vec<&str> = value.along.iter().map(|along| along.name.as_str()).collect();
+        let note = match (value.determined, along.is_empty()) {
+            (false, _) => ", not determined".to_owned(),
+            (true, false) => format!(", with {}", along.join(", ")),
+            (true, true) => String::new(),
+        };
+        let interval = format!("{}{note}", between(low, high));
         let found = format!("{}", value.value);
         vec![value.name.clone(), found, format!("{}", value.was), format!("{min} … {max}"), interval]
     };
