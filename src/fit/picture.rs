@@ -3,19 +3,28 @@
 use super::answer::Answer;
 use super::problem::{BAD, Horizon, Problem};
 use super::refine::Found;
-use super::search::ROUNDING;
 use crate::output::numbers::rough;
 use crate::plot::{Axis, Figure, Look, Point, Series};
 use crate::report::jobs::spread;
 
 /// Points of a curve, evenly over the range.
 const POINTS: usize = 41;
+/// What is far below the tolerance is drawn here at least, in tolerances: smaller still says nothing.
+const FLOOR: f64 = 1e-3;
 /// More of them on each side of the value, each half as far away as the last.
 const NEAR: i32 = 10;
 
 /// The residual over the shares of all ranges, one value moved at a time.
 #[must_use]
 pub fn figure(problem: &Problem, answer: &Answer, best: &Found, jobs: usize) -> Figure {
+    let floor = FLOOR * answer.tolerance;
+    let limit = |x| Point { x, y: answer.tolerance, label: None };
+    let tolerance = Series {
+        name: format!("met below {}", answer.tolerance),
+        look: Look(problem.dimension()),
+        joined: true,
+        points: vec![limit(0.0), limit(1.0)],
+    };
     let series = (0..problem.dimension()).map(|axis| {
         let places = shares(best.place[axis]);
         let costs = spread(&places, jobs, |share| {
@@ -30,15 +39,17 @@ pub fn figure(problem: &Problem, answer: &Answer, best: &Found, jobs: usize) -> 
             name: format!("{} = {}, from {min} to {max}", value.name, rough(value.value)),
             look: Look(axis),
             joined: true,
-            points: points.map(|(x, cost)| Point { x: *x, y: cost.max(ROUNDING), label: None }).collect(),
+            points: points.map(|(x, cost)| Point { x: *x, y: cost.max(floor), label: None }).collect(),
         }
     });
     Figure {
         title: format!("{}: how sharply the values are determined", answer.title),
-        subtitle: format!("each value moved alone; met within {}, what is flat does not matter", answer.tolerance),
+        subtitle:
+            "each value moved alone, the others as they were found; where a curve is flat its value does not matter"
+                .to_owned(),
         x: Axis::linear("share of the range"),
         y: Axis::log("residual"),
-        series: series.collect(),
+        series: series.chain([tolerance]).collect(),
     }
 }
 
