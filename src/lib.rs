@@ -6,6 +6,7 @@
 //! | a scenario played to its end, and what is told of it | [`play`], [`outcome`], [`books`], [`readings`], [`notable`] |
 //! | what each call does | [`run`], [`check`], [`explain`], [`export`], [`words`], [`init`], [`report`], [`render`], [`diff`](mod@diff) |
 //! | what each call does | [`run`], [`check`], [`explain`], [`export`], [`words`], [`init`], [`report`], [`render`], [`studio`] |
+//! | what each call does | [`run`], [`check`], [`explain`], [`export`], [`words`], [`init`], [`report`], [`render`], [`diff`](mod@diff), [`fit`](mod@fit) |
 //! | a run kept to the last bit | [`recording`] |
 //! | a run as a page that plays it | [`player`] |
 //! | how it is printed | [`output`], [`plot`], [`written`], [`terminal`], [`progress`], [`clock`] |

@@ -5,6 +5,7 @@ mod command;
 mod contact;
 mod diff;
 mod exact;
+mod fit;
 mod harness;
 mod ledger;
 mod metamorphic;
