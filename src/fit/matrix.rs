@@ -29,7 +29,6 @@ pub fn eigen(matrix: &Square) -> Vec<Eigen> {
 
 /// Turns two axes so that the element that couples them vanishes.
 fn rotate(a: &mut Square, vectors: &mut Square, p: usize, q: usize) {
-    let n = a.len();
     if a[p][q] == 0.0 {
         return;
     }
@@ -37,19 +36,15 @@ fn rotate(a: &mut Square, vectors: &mut Square, p: usize, q: usize) {
     let tangent = f64::copysign(1.0, theta) / (theta.abs() + (theta * theta + 1.0).sqrt());
     let cosine = 1.0 / (tangent * tangent + 1.0).sqrt();
     let sine = tangent * cosine;
-    for k in 0..n {
-        let (kp, kq) = (a[k][p], a[k][q]);
-        (a[k][p], a[k][q]) = (cosine * kp - sine * kq, sine * kp + cosine * kq);
+    let turned = |x: f64, y: f64| (cosine * x - sine * y, sine * x + cosine * y);
+    for row in a.iter_mut().chain(vectors) {
+        (row[p], row[q]) = turned(row[p], row[q]);
     }
-    for k in 0..n {
-        let (pk, qk) = (a[p][k], a[q][k]);
-        (a[p][k], a[q][k]) = (cosine * pk - sine * qk, sine * pk + cosine * qk);
+    let (above, below) = a.split_at_mut(q);
+    for (x, y) in above[p].iter_mut().zip(&mut below[0]) {
+        (*x, *y) = turned(*x, *y);
     }
     (a[p][q], a[q][p]) = (0.0, 0.0);
-    for row in vectors {
-        let (p_part, q_part) = (row[p], row[q]);
-        (row[p], row[q]) = (cosine * p_part - sine * q_part, sine * p_part + cosine * q_part);
-    }
 }
 
 /// JᵀJ of rows of derivatives, one row per varied number.
