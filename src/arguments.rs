@@ -22,6 +22,9 @@ pub struct ScenarioArguments {
     /// In how many equal parts an iteration solves contacts, with stepped impulses
     #[arg(long, value_name = "N", value_parser = substeps, allow_negative_numbers = true)]
     substeps: Option<u32>,
+    /// Where the generator of random numbers starts, whatever the main part of the script says
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    seed: Option<i64>,
     /// Value of a `param`, or of mu_l, mu_a, epsilon, restitution, friction; may be given several times
     #[arg(long, value_name = "NAME=VALUE", value_parser = assignment)]
     set: Vec<(String, f64)>,
@@ -53,6 +56,7 @@ impl Default for ScenarioArguments {
             steps: None,
             time_step: None,
             substeps: None,
+            seed: None,
             set: Vec::new(),
             exchange: None,
             detection: None,
@@ -74,6 +78,7 @@ impl ScenarioArguments {
                 steps: self.steps,
                 time_step: self.time_step,
                 substeps: self.substeps,
+                seed: self.seed,
                 exchange: self.exchange,
                 detection: self.detection,
                 motion: self.motion,

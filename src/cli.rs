@@ -13,9 +13,9 @@ use crate::render::RenderArguments;
 use crate::report::ReportArguments;
 use crate::run::RunArguments;
 use crate::studio::StudioArguments;
+use crate::{Error, Verdict, check, diff, explain, export, fit, init, render, report, run, terminal, words};
 use crate::{Error, Verdict, check, diff, explain, export, init, render, report, run, terminal, words};
 use crate::{Error, Verdict, check, explain, export, init, render, report, run, studio, terminal, words};
-use crate::{Error, Verdict, check, diff, explain, export, fit, init, render, report, run, terminal, words};
 
 const EXAMPLES: &str = "\
 Examples:

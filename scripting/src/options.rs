@@ -55,6 +55,8 @@ pub struct Overrides {
     pub time_step: Option<f64>,
     /// `--substeps`, 1 … 1000.
     pub substeps: Option<u32>,
+    /// `--seed`.
+    pub seed: Option<i64>,
     /// `--exchange`.
     pub exchange: Option<ExchangeRule>,
     /// `--detection`.
@@ -70,6 +72,7 @@ impl Overrides {
         settings.steps = self.steps.unwrap_or(settings.steps);
         settings.time_step = self.time_step.unwrap_or(settings.time_step);
         settings.substeps = self.substeps.or(settings.substeps);
+        settings.seed = self.seed.unwrap_or(settings.seed);
         settings.exchange = self.exchange.unwrap_or(settings.exchange);
         settings.detection = self.detection.or(settings.detection);
         settings.motion = self.motion.unwrap_or(settings.motion);

@@ -3,8 +3,6 @@
 //! No clock, no sleep, no `eval`, no file but those of the [`Library`](crate::library::Library); a limit on
 //! operations, depths and sizes, the same on every machine; and, last, a stop on wall-clock time.
 
-use std::cell::RefCell;
-use std::rc::Rc;
 
 use rhai::packages::{
     BasicArrayPackage, BasicFnPackage, BasicIteratorPackage, BasicMapPackage, BasicStringPackage, MoreStringPackage,
@@ -18,7 +16,6 @@ use crate::guard;
 use crate::modules::Resolver;
 use crate::options::Output;
 use crate::repairs;
-use crate::session::{Session, SessionTag};
 use crate::source;
 use crate::words;
 
@@ -55,10 +52,9 @@ pub(crate) fn why_withheld(name: &str) -> Option<&'static str> {
     WITHHELD.iter().find(|(withheld, _)| *withheld == name).map(|(_, why)| *why)
 }
 
-/// An engine for one load of a script.
-pub(crate) fn engine(session: &Rc<RefCell<Session>>, resolver: Resolver, clock: &Clock, output: &Output) -> Engine {
+/// An engine for a script. Words find their session by the tag of whatever runs.
+pub(crate) fn engine(resolver: Resolver, clock: &Clock, output: &Output) -> Engine {
     let mut engine = bare_engine();
-    engine.set_default_tag(Dynamic::from(SessionTag(session.clone())));
     engine.set_module_resolver(resolver);
     let (print, debug) = (output.clone(), output.clone());
     engine.on_print(move |text| print.write(text));

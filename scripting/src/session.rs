@@ -4,10 +4,12 @@
 //! an index and nothing more, so `let car = mobile("car")` serves both phases.
 
 use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::path::PathBuf;
 use std::rc::Rc;
 
 use choque_engine::{BodyId, World};
-use rhai::{Dynamic, EvalAltResult, ImmutableString, NativeCallContext, Position};
+use rhai::{Dynamic, EvalAltResult, ImmutableString, Module, NativeCallContext, Position, Shared};
 
 use crate::draft::Draft;
 use crate::error::Complaint;
@@ -52,6 +54,10 @@ pub(crate) struct Session {
     pub(crate) phase: Phase,
     pub(crate) params: Params,
     pub(crate) generator: Generator,
+    /// The seed given from outside, which wins over that of the main part.
+    pub(crate) seed: Option<i64>,
+    /// The modules imported so far, by their one true path: each runs once, however often it is imported.
+    pub(crate) modules: BTreeMap<PathBuf, Shared<Module>>,
     /// What the script expects, in its order; taken out when the main part has ended.
     pub(crate) pending: Vec<Pending>,
     /// What it wants of a run, likewise.
@@ -95,11 +101,20 @@ impl Running {
 
 impl Session {
     /// A session at the beginning of the main part.
-    pub(crate) fn new(params: Params, library: Rc<Library>) -> Self {
-        let phase = Phase::Building(Box::default());
-        let generator = Generator::new(0);
-        let (pending, aims, variables) = (Vec::new(), Vec::new(), Vec::new());
-        Session { phase, params, generator, pending, aims, variables, readings: None, spare: Vec::new(), library }
+    pub(crate) fn new(params: Params, seed: Option<i64>, library: Rc<Library>) -> Self {
+        Session {
+            phase: Phase::Building(Box::default()),
+            params,
+            generator: Generator::new(seed.unwrap_or(0)),
+            seed,
+            modules: BTreeMap::new(),
+            pending: Vec::new(),
+            aims: Vec::new(),
+            variables: Vec::new(),
+            readings: None,
+            spare: Vec::new(),
+            library,
+        }
     }
 
     /// The scene being built, for a word that builds.
@@ -171,6 +186,11 @@ impl Session {
 /// The tag by which words find their session.
 #[derive(Clone)]
 pub(crate) struct SessionTag(pub(crate) Rc<RefCell<Session>>);
+
+/// The session that a tag leads to.
+pub(crate) fn of(tag: &Dynamic) -> Option<Rc<RefCell<Session>>> {
+    tag.read_lock::<SessionTag>().map(|tag| tag.0.clone())
+}
 
 /// Has a word work on the session; its complaint becomes a script error at the place of the call.
 pub(crate) fn with<T>(
