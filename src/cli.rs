@@ -16,6 +16,8 @@ use crate::studio::StudioArguments;
 use crate::{Error, Verdict, check, diff, explain, export, fit, init, render, report, run, terminal, words};
 use crate::{Error, Verdict, check, diff, explain, export, init, render, report, run, terminal, words};
 use crate::{Error, Verdict, check, explain, export, init, render, report, run, studio, terminal, words};
+use crate::sweep::{MergeArguments, SweepArguments};
+use crate::{Error, Verdict, check, explain, export, init, report, run, sweep, terminal, words};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -103,6 +105,15 @@ Examples:
 
 Exit codes: 0 every residual is within the tolerance, 1 one is not, 2 the input or the call is wrong.")]
     Fit(FitArguments),
+    /// Run scenarios with many numbers, a row for each run, as a plan says
+    #[command(after_help = "\
+Examples:
+  choque sweep scenarios/sweeps/two_car_crash.ron
+  choque sweep crash.ron -o crash.parquet --jobs 4
+  choque sweep crash.ron -o crash --shard 2/8     on one machine of eight; choque merge crash when all are done")]
+    Sweep(SweepArguments),
+    /// Put the shards of a sweep together
+    Merge(MergeArguments),
     /// Write a scenario's scene as plain data, without callbacks
     #[command(after_help = "\
 Examples:
@@ -174,6 +185,8 @@ impl Call {
             Call::Diff(arguments) => diff::diff(arguments),
             Call::Studio(arguments) => studio::studio(arguments),
             Call::Fit(arguments) => fit::fit(arguments),
+            Call::Sweep(arguments) => sweep::sweep(arguments),
+            Call::Merge(arguments) => sweep::merge(arguments),
             Call::Export { file, output, scenario } => export::export(file, output.as_deref(), &scenario.options()),
             Call::Words { name, definitions } => words::words(name.as_deref(), definitions.as_deref()),
             Call::Init { directory, choque_path } => init::init(directory, choque_path.as_deref()),

@@ -9,6 +9,7 @@
 //! | what each call does | [`run`], [`check`], [`explain`], [`export`], [`words`], [`init`], [`report`], [`render`], [`diff`](mod@diff), [`fit`](mod@fit) |
 //! | a run kept to the last bit | [`recording`] |
 //! | a run as a page that plays it | [`player`] |
+//! | what each call does | [`run`], [`check`], [`explain`], [`export`], [`words`], [`init`], [`report`], [`sweep`] |
 //! | how it is printed | [`output`], [`plot`], [`written`], [`terminal`], [`progress`], [`clock`] |
 //! | one test per scenario, pinned by a snapshot | [`harness`] |
 //!
@@ -39,6 +40,7 @@ pub mod render;
 pub mod report;
 pub mod run;
 pub mod studio;
+pub mod sweep;
 pub mod terminal;
 pub mod words;
 pub mod written;

@@ -15,6 +15,14 @@ pub trait Watch {
     fn moment(&mut self, _: &World, _: Moment) {}
 }
 
+/// Nobody watches: only the end matters.
+#[derive(Clone, Copy, Debug)]
+pub struct Unwatched;
+
+impl Watch for Unwatched {
+    fn iteration(&mut self, _: &World, _: &[Hit]) {}
+}
+
 /// Plays a run to its end and judges the expectations.
 ///
 /// # Errors

@@ -152,6 +152,11 @@ impl Script {
         self.program.library.speaks_of(word)
     }
 
+    /// Every script and model read so far, with its name.
+    pub(crate) fn texts_read(&self) -> Vec<(String, String)> {
+        self.program.texts_read()
+    }
+
     /// Calls a callback of the script.
     pub(crate) fn call(&self, callback: &str, arguments: &mut [Dynamic]) -> Result<Dynamic, Diagnostic> {
         self.program.clock.restart();

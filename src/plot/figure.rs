@@ -45,8 +45,8 @@ pub struct Point {
     pub label: Option<String>,
 }
 
-const WIDTH: f64 = 760.0;
-const HEIGHT: f64 = 520.0;
+pub(super) const WIDTH: f64 = 760.0;
+pub(super) const HEIGHT: f64 = 520.0;
 /// The plot's own rectangle: left and right …
 const SIDES: [f64; 2] = [78.0, WIDTH - 24.0];
 /// … and bottom; the top depends on the legend.
@@ -55,10 +55,10 @@ const BOTTOM: f64 = HEIGHT - 62.0;
 /// How much of a curve the legend shows.
 const PIECE: f64 = 34.0;
 
-const TITLE: Pen = Pen { size: 11.5, weight: 1.9, colour: INK };
-const SUBTITLE: Pen = Pen { size: 8.4, weight: 1.0, colour: FAINT };
-const NAME: Pen = Pen { size: 8.8, weight: 1.15, colour: INK };
-const TICK: Pen = Pen { size: 8.4, weight: 1.05, colour: INK };
+pub(super) const TITLE: Pen = Pen { size: 11.5, weight: 1.9, colour: INK };
+pub(super) const SUBTITLE: Pen = Pen { size: 8.4, weight: 1.0, colour: FAINT };
+pub(super) const NAME: Pen = Pen { size: 8.8, weight: 1.15, colour: INK };
+pub(super) const TICK: Pen = Pen { size: 8.4, weight: 1.05, colour: INK };
 const LABEL: Pen = Pen { size: 7.2, weight: 0.9, colour: FAINT };
 
 impl Figure {
@@ -123,7 +123,7 @@ impl Figure {
 }
 
 /// A text in lines no wider than that, broken between words.
-fn wrapped(text: &str, size: f64, most: f64) -> Vec<String> {
+pub(super) fn wrapped(text: &str, size: f64, most: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace() {
         match lines.last_mut() {

@@ -45,7 +45,7 @@ pub fn spread<J: Sync, A: Send>(jobs: &[J], threads: usize, work: impl Fn(&J) ->
 }
 
 /// A lock whose holder died is still a lock: the thread's own panic is passed on by the scope.
-fn locked<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
+pub(crate) fn locked<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
 }
 
