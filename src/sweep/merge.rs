@@ -1,5 +1,7 @@
 //! The rows of all shards put together: each run once, in order.
 
+use std::path::Path;
+
 use super::shard::{Identity, Rows};
 use super::table::{Cell, Columns, Row};
 use crate::Error;
@@ -9,10 +11,10 @@ use crate::output::numbers::counted;
 ///
 /// # Errors
 /// Shards of different plans or versions; runs that came out differently in two of them; runs that are missing.
-pub fn merged(shards: &[Rows], columns: &Columns) -> Result<(Identity, Vec<Row>), Error> {
+pub fn merged(folder: &Path, shards: &[Rows], columns: &Columns) -> Result<(Identity, Vec<Row>), Error> {
     let Some(first) = shards.first() else {
         let hint = "choque sweep PLAN.ron -o DIR makes some".to_owned();
-        return Err(Error::Call { message: "there are no shards".to_owned(), hint });
+        return Err(Error::Call { message: format!("{} holds no shards", folder.display()), hint });
     };
     let identity = first.identity.clone();
     for shard in shards {

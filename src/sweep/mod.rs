@@ -171,7 +171,7 @@ fn carry_out(
 fn finish(place: &Place, file: &PlanFile) -> Result<Verdict, Error> {
     let columns = Columns::of(&file.plan);
     let shards = shard::read_all(&place.folder, &columns)?;
-    let (_, rows) = merge::merged(&shards, &columns)?;
+    let (_, rows) = merge::merged(&place.folder, &shards, &columns)?;
     let plots = plots::of(&file.plan, &columns, &rows);
     place.write_table(&columns, &rows)?;
     let mut told = format!("{} in {}\n", counted(rows.len(), "row", "rows"), place.table.display());

@@ -101,6 +101,10 @@ impl PlanFile {
             let message = format!("{} is no name for a plan", path.display());
             return Err(Error::Call { message, hint: "a plan's file name ends in .ron".to_owned() });
         }
+        if !path.is_file() {
+            let message = format!("cannot read {}: there is no such file", path.display());
+            return Err(Diagnostic::new(message).in_file(path).into());
+        }
         let text = std::fs::read_to_string(path).map_err(|source| Error::File {
             verb: "read",
             path: path.to_owned(),
@@ -171,7 +175,7 @@ impl PlanFile {
         let levels = (0..if ends.is_none() || self.plan.points == Points::Grid { axis.levels() } else { 0 })
             .map(|place| axis.level(place));
         let mut values = levels.chain(ends.into_iter().flatten());
-        values.try_for_each(|value| axis::check_value(name, &value)).or_else(|why| refuse(why, forms))
+        values.try_for_each(|value| axis::check_value(name, &value)).map_err(|why| self.complain(name, why, None))
     }
 
     fn check_points(&self) -> Result<(), Error> {

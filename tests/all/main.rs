@@ -18,4 +18,5 @@ mod snapshots;
 mod stability;
 mod studio;
 mod support;
+mod sweep;
 mod tidy;
