@@ -125,7 +125,10 @@ impl Table<'_> {
                         means[bin].add(self.number(row, value));
                     }
                 }
-                let name = if y.len() > 1 { [self.bare(value), group.clone()].join(" ") } else { group.clone() };
+                let mut name = group.clone();
+                if y.len() > 1 || group.is_empty() {
+                    name = [&self.bare(value), group].map(String::as_str).join(" ").trim_end().to_owned();
+                }
                 let points = means.iter().zip(&bins.middles);
                 let points = points.filter_map(|(mean, x)| Some(Point { x: *x, y: mean.get()?, label: None }));
                 series.push(Series { name, look: Look(series.len()), joined: true, points: points.collect() });

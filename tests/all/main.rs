@@ -1,6 +1,7 @@
 //! Everything but the scenarios themselves, in one binary: the command, the harness, a project laid out by `init`,
 //! and what must hold of every scene.
 
+mod book;
 mod command;
 mod contact;
 mod diff;
