@@ -162,8 +162,7 @@ fn carry_out(
         let workers: Vec<_> = (0..jobs.min(to_do.len())).map(|_| scope.spawn(make)).collect();
         workers
             .into_iter()
-            .map(|worker| worker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
-            .collect()
+            .try_for_each(|worker| worker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
     })
 }
 
