@@ -2,9 +2,9 @@
 
 use super::axis::Range;
 use super::drawing::{Drawing, Path, Stroke};
-use super::figure::{HEIGHT, NAME, SUBTITLE, TICK, TITLE, WIDTH, wrapped};
+use super::figure::{HEIGHT, NAME, TICK, WIDTH, headed};
 use super::lettering::Anchor;
-use super::palette::{Colour, GRID, INK, PAPER, sequential};
+use super::palette::{Colour, GRID, INK, sequential};
 
 /// What a heat map shows.
 #[derive(Clone, Debug)]
@@ -40,15 +40,8 @@ impl HeatMap {
     /// The plot on a page.
     #[must_use]
     pub fn draw(&self) -> Drawing {
-        let mut drawing = Drawing::new(WIDTH, HEIGHT, &self.title);
-        drawing.fill(Path::rect([0.0, 0.0], [WIDTH, HEIGHT]), PAPER);
-        drawing.text([SIDES[0], 28.0], Anchor::Start, &self.title, TITLE);
-        let mut top = 36.0;
-        for line in wrapped(&self.subtitle, SUBTITLE.size, SCALE[1] - SIDES[0]) {
-            top += 14.0;
-            drawing.text([SIDES[0], top - 2.0], Anchor::Start, &line, SUBTITLE);
-        }
-        let plot = Plot { top: top + 14.0, values: self.values() };
+        let (mut drawing, below) = headed(&self.title, &self.subtitle, [SIDES[0], SCALE[1]]);
+        let plot = Plot { top: below + 14.0, values: self.values() };
         let [x, y] = [&self.x_edges, &self.y_edges].map(|edges| span(edges));
         self.draw_cells(&mut drawing, &plot, &x, &y);
         self.draw_axes(&mut drawing, &plot, &x, &y);

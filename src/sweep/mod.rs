@@ -8,7 +8,7 @@
 //! | how is one made? | [`worker`] |
 //! | what does a row hold? | [`table`] |
 //! | how does a sweep go on where it was stopped? | [`shard`] |
-//! | how do shards become a table? | [`merge`], [`files`] |
+//! | how do shards become a table? | [`mod@merge`], [`files`] |
 //! | what is drawn? | [`plots`] |
 
 pub mod axis;
