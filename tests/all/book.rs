@@ -48,10 +48,27 @@ fn copy(from: &Path, to: &Path) {
     }
 }
 
+/// A picture of the book that a command has just made anew is the one that is shown; gives how many there were.
+fn check_pictures(page: &Path, scratch: &Path) -> usize {
+    let pictures = fs::read_dir(root().join("docs/book/src/pictures")).expect("pictures");
+    let mut made = 0;
+    for shown in pictures.map(|entry| entry.expect("a picture").path()) {
+        for folder in fs::read_dir(scratch).expect("a folder").map(|entry| entry.expect("an entry").path()) {
+            let anew = folder.join(shown.file_name().expect("a name"));
+            if anew.is_file() {
+                let [shown, anew] = [&shown, &anew].map(|path| fs::read(path).expect("a picture"));
+                assert!(shown == anew, "{}: a picture is not what its command makes", page.display());
+                made += 1;
+            }
+        }
+    }
+    made
+}
+
 /// Page by page in a folder with the shipped scenarios, one command after the other: none may be told that it is wrong.
 #[test]
 fn every_command_in_the_book_runs() {
-    let mut commands = 0;
+    let (mut commands, mut pictures) = (0, 0);
     for (page, text) in pages() {
         let scratch = folder(&[]);
         copy(&root().join("scenarios"), &scratch.path().join("scenarios"));
@@ -62,9 +79,10 @@ fn every_command_in_the_book_runs() {
             let code = output.status.code();
             assert!(matches!(code, Some(0 | 1)), "{}: {line}: {}", page.display(), stderr(&output));
             commands += 1;
+            pictures += check_pictures(&page, scratch.path());
         }
     }
-    assert!(commands > 20, "{commands}");
+    assert!(commands > 20 && pictures >= 4, "{commands} commands, {pictures} pictures");
 }
 
 /// What no test can run is marked, and rare.
