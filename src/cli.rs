@@ -13,11 +13,10 @@ use crate::render::RenderArguments;
 use crate::report::ReportArguments;
 use crate::run::RunArguments;
 use crate::studio::StudioArguments;
-use crate::{Error, Verdict, check, diff, explain, export, fit, init, render, report, run, terminal, words};
-use crate::{Error, Verdict, check, diff, explain, export, init, render, report, run, terminal, words};
-use crate::{Error, Verdict, check, explain, export, init, render, report, run, studio, terminal, words};
 use crate::sweep::{MergeArguments, SweepArguments};
-use crate::{Error, Verdict, check, explain, export, init, report, run, sweep, terminal, words};
+use crate::{
+    Error, Verdict, check, diff, explain, export, fit, init, render, report, run, studio, sweep, terminal, words,
+};
 
 const EXAMPLES: &str = "\
 Examples:

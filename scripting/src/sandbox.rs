@@ -3,7 +3,6 @@
 //! No clock, no sleep, no `eval`, no file but those of the [`Library`](crate::library::Library); a limit on
 //! operations, depths and sizes, the same on every machine; and, last, a stop on wall-clock time.
 
-
 use rhai::packages::{
     BasicArrayPackage, BasicFnPackage, BasicIteratorPackage, BasicMapPackage, BasicStringPackage, MoreStringPackage,
     Package,

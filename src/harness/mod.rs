@@ -36,3 +36,48 @@ pub use crate::harness_main as main;
 pub use difference::in_words;
 pub use discover::{Case, cases, unreferenced};
 pub use pin::pinned;
+pub use record::record;
+pub(crate) use snapshot::rounded;
+pub use snapshot::{BodyRow, Checkpoint, ExtremeRow, MeetingRow, Snapshot, Totals};
+
+/// Asserts a snapshot of that name and body. The macro makes one in the test's own crate, because insta takes the
+/// workspace, its settings and the source of a snapshot from where its macro stands.
+pub type Assert = fn(name: &str, body: &str);
+
+/// The body of `main` in `tests/scenarios.rs`: a test per scenario of the package it stands in.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! harness_main {
+    () => {
+        $crate::harness::run(env!("CARGO_MANIFEST_DIR"), |name, body| $crate::insta::assert_snapshot!(name, body))
+    };
+}
+
+/// Runs the tests of a package as the process's arguments ask; `directory` holds its `scenarios` and `snapshots`.
+///
+/// Exit code 0: all passed; 101: some failed, as with Rust's own tests; 2: there is no folder of scenarios to read.
+#[must_use]
+pub fn run(directory: &str, assert: Assert) -> ExitCode {
+    run_with(std::env::args_os(), directory, assert)
+}
+
+/// The same with arguments given, the first of which is the program's name.
+#[must_use]
+pub fn run_with(arguments: impl IntoIterator<Item = OsString>, directory: &str, assert: Assert) -> ExitCode {
+    let arguments = Arguments::from_iter(arguments);
+    match cases(Path::new(directory)) {
+        Ok(cases) => {
+            let trials = cases.into_iter().map(|case| Trial::test(case.name(), move || test(&case, assert)));
+            libtest_mimic::run(&arguments, trials.collect()).exit_code()
+        }
+        Err(error) => {
+            crate::terminal::tell_error(&error);
+            ExitCode::from(2)
+        }
+    }
+}
+
+fn test(case: &Case, assert: Assert) -> Result<(), Failed> {
+    let snapshot = record(case).map_err(|error| error.to_string())?;
+    pin::pin(case, &snapshot, assert).map_err(Failed::from)
+}

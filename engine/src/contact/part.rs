@@ -111,8 +111,8 @@ impl Work for Ask<'_> {
         for block in self.blocks {
             let (a, b) = (gather::<W>(self.rows, &block.row_a), gather::<W>(self.rows, &block.row_b));
             let gap = gaps(block, &a, &b);
-            for k in 0..2 {
-                block.asked[k] = block.least[k] - gap[k] - band;
+            for (k, gap) in gap.into_iter().enumerate() {
+                block.asked[k] = block.least[k] - gap - band;
             }
         }
     }
