@@ -53,7 +53,7 @@ pub struct FitArguments {
     #[arg(long, value_name = "N", default_value = "8", value_parser = threads)]
     pub starts: usize,
     /// Which places are tried
-    #[arg(long, value_name = "N", default_value = "0")]
+    #[arg(long = "search-seed", id = "search_seed", value_name = "N", default_value = "0")]
     pub seed: u64,
     /// Runs made at once; the result never depends on it [default: as many as there are cores]
     #[arg(long, value_name = "N", value_parser = threads)]

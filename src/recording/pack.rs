@@ -122,7 +122,7 @@ mod tests {
     fn what_was_foretold_takes_no_bytes_and_a_bit_more_takes_one() {
         let mut pack = Pack::default();
         pack.put_near(0.1, 0.1);
-        pack.put_near(0.1, 0.1 + 1e-17);
+        pack.put_near(0.1, 0.1 + 1e-18);
         pack.put_near(1.0, 1.0 + f64::EPSILON);
         assert_eq!((pack.sizes, pack.bytes), (vec![0, 0, 1], vec![2]));
     }

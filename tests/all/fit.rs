@@ -107,7 +107,7 @@ fn the_answer_is_the_same_at_any_number_of_jobs_and_for_one_seed() {
     let scenarios = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/fit");
     let answers = ["1", "3"].map(|jobs| fit(&scenarios, &["stops_at_the_kerb.rhai", "--jobs", jobs]));
     assert!(answers[0]["met"] == true && answers[0] == answers[1], "{answers:?}");
-    assert_ne!(fit(&scenarios, &["stops_at_the_kerb.rhai", "--seed", "5"])["runs"], answers[0]["runs"]);
+    assert_ne!(fit(&scenarios, &["stops_at_the_kerb.rhai", "--search-seed", "5"])["runs"], answers[0]["runs"]);
 }
 
 #[test]
