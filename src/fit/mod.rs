@@ -5,7 +5,7 @@
 //! | what is searched, and what does a run come to? | [`problem`], [`recorded`] |
 //! | how is it searched? | [`mod@search`], [`mod@refine`], [`matrix`] |
 //! | how sharply is a value determined? | [`determined`], [`mod@solve`] |
-//! | what is said of it? | [`answer`], [`told`], [`picture`] |
+//! | what is said of it? | [`answer`](mod@answer), [`told`], [`picture`] |
 
 pub mod answer;
 pub mod determined;
