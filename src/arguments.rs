@@ -22,6 +22,9 @@ pub struct ScenarioArguments {
     /// In how many equal parts an iteration solves contacts, with stepped impulses
     #[arg(long, value_name = "N", value_parser = substeps, allow_negative_numbers = true)]
     substeps: Option<u32>,
+    /// Where the generator of random numbers starts, whatever the main part of the script says
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    seed: Option<i64>,
     /// Value of a `param`, or of mu_l, mu_a, epsilon, restitution, friction; may be given several times
     #[arg(long, value_name = "NAME=VALUE", value_parser = assignment)]
     set: Vec<(String, f64)>,
@@ -53,6 +56,7 @@ impl Default for ScenarioArguments {
             steps: None,
             time_step: None,
             substeps: None,
+            seed: None,
             set: Vec::new(),
             exchange: None,
             detection: None,
@@ -74,6 +78,7 @@ impl ScenarioArguments {
                 steps: self.steps,
                 time_step: self.time_step,
                 substeps: self.substeps,
+                seed: self.seed,
                 exchange: self.exchange,
                 detection: self.detection,
                 motion: self.motion,
@@ -94,11 +99,11 @@ fn choice<T: Clone + Send + Sync + 'static>(
     PossibleValuesParser::new(words).try_map(move |word| from_word(&word).ok_or("not one of the words above"))
 }
 
-fn count(text: &str) -> Result<u64, String> {
+pub(crate) fn count(text: &str) -> Result<u64, String> {
     text.trim().parse().map_err(|_| "it must be a whole number, 0 or more".to_owned())
 }
 
-fn substeps(text: &str) -> Result<u32, String> {
+pub(crate) fn substeps(text: &str) -> Result<u32, String> {
     let count = text.trim().parse().ok().and_then(|count| check::substeps("it", count).ok());
     count.ok_or_else(|| "it must be a whole number between 1 and 1000".to_owned())
 }
@@ -109,8 +114,19 @@ pub(crate) fn threads(text: &str) -> Result<usize, String> {
     threads.ok_or_else(|| "it must be a whole number, 1 or more".to_owned())
 }
 
+/// A time [s], not before the start.
+pub(crate) fn time(text: &str) -> Result<f64, String> {
+    check::not_negative("it", number(text)?).map_err(|bad| bad.to_string())
+}
+
+/// Every how many iterations.
+pub(crate) fn every(text: &str) -> Result<u64, String> {
+    let every = text.trim().parse().ok().filter(|every| *every > 0);
+    every.ok_or_else(|| "it must be a whole number, 1 or more".to_owned())
+}
+
 /// A finite number, also as a quotient: `1/120`.
-fn number(text: &str) -> Result<f64, String> {
+pub(crate) fn number(text: &str) -> Result<f64, String> {
     let read = |part: &str| part.trim().parse::<f64>().map_err(|_| format!("`{}` is not a number", part.trim()));
     let value = match text.split_once('/') {
         Some((above, below)) => read(above)? / read(below)?,
@@ -127,7 +143,8 @@ fn assignment(text: &str) -> Result<(String, f64), String> {
     }
 }
 
-fn seconds(text: &str) -> Result<Duration, String> {
+/// A time, longer than none.
+pub(crate) fn seconds(text: &str) -> Result<Duration, String> {
     let seconds = check::positive("it", number(text)?).map_err(|bad| bad.to_string())?;
     Duration::try_from_secs_f64(seconds).map_err(|_| "that is longer than any run".to_owned())
 }

@@ -7,9 +7,16 @@ use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
 
 use crate::arguments::{ScenarioArguments, threads};
+use crate::diff::DiffArguments;
+use crate::fit::FitArguments;
+use crate::render::RenderArguments;
 use crate::report::ReportArguments;
 use crate::run::RunArguments;
-use crate::{Error, Verdict, check, explain, export, init, report, run, terminal, words};
+use crate::studio::StudioArguments;
+use crate::sweep::{MergeArguments, SweepArguments};
+use crate::{
+    Error, Verdict, check, diff, explain, export, fit, init, render, report, run, studio, sweep, terminal, words,
+};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -65,6 +72,47 @@ Examples:
   choque report pile.rhai --quick -o measured
   choque report gas.rhai --reference known.csv")]
     Report(ReportArguments),
+    /// Draw a run: one moment as SVG or PNG, all of it as a GIF or a page that plays it
+    #[command(after_help = "\
+Examples:
+  choque render scenarios/blades/spinning_blade.rhai -o blade.svg
+  choque render pile.rhai --set push=12 --at 1.5 -o pile.png
+  choque render run.choque -o run.gif --width 640")]
+    Render(RenderArguments),
+    /// Say where two runs part: in which iteration, which stage, which body, by how much, and how that grew
+    #[command(after_help = "\
+Examples:
+  choque diff pile.rhai --set-b mu_l=0.9                one script, two settings
+  choque diff pile.rhai --set-b motion=continuous
+  choque diff before.choque after.choque -o diff.html   two versions of the program
+  choque diff scenarios/pile.rhai --snapshot            a script and what pins it
+
+Exit codes: 0 the same to the last bit, 1 they differ, 2 the input or the call is wrong.")]
+    Diff(DiffArguments),
+    /// Serve a page on this machine that plays scenarios, tunes them and writes them back
+    #[command(after_help = "\
+Examples:
+  choque studio                          the nearest folder named scenarios
+  choque studio my_game --port 8000      another one, always at the same port")]
+    Studio(StudioArguments),
+    /// Find the values with which a scenario does what its script wants, or what a recording shows
+    #[command(after_help = "\
+Examples:
+  choque fit kerb.rhai                                   what its target(…) wants, by what it lets vary(…)
+  choque fit kerb.rhai -o fit.svg --write                … drawn, and the values put into the script
+  choque fit pile.rhai --recording seen.choque --vary mu_l=0..1 --vary mu_a=0..1
+
+Exit codes: 0 every residual is within the tolerance, 1 one is not, 2 the input or the call is wrong.")]
+    Fit(FitArguments),
+    /// Run scenarios with many numbers, a row for each run, as a plan says
+    #[command(after_help = "\
+Examples:
+  choque sweep scenarios/sweeps/two_car_crash.ron
+  choque sweep crash.ron -o crash.parquet --jobs 4
+  choque sweep crash.ron -o crash --shard 2/8     on one machine of eight; choque merge crash when all are done")]
+    Sweep(SweepArguments),
+    /// Put the shards of a sweep together
+    Merge(MergeArguments),
     /// Write a scenario's scene as plain data, without callbacks
     #[command(after_help = "\
 Examples:
@@ -132,6 +180,12 @@ impl Call {
             Call::Check { files, scenario } => check::check(files, &scenario.options()),
             Call::Explain { file, threads, scenario } => explain::explain(file, *threads, &scenario.options()),
             Call::Report(arguments) => report::report(arguments),
+            Call::Render(arguments) => render::render(arguments),
+            Call::Diff(arguments) => diff::diff(arguments),
+            Call::Studio(arguments) => studio::studio(arguments),
+            Call::Fit(arguments) => fit::fit(arguments),
+            Call::Sweep(arguments) => sweep::sweep(arguments),
+            Call::Merge(arguments) => sweep::merge(arguments),
             Call::Export { file, output, scenario } => export::export(file, output.as_deref(), &scenario.options()),
             Call::Words { name, definitions } => words::words(name.as_deref(), definitions.as_deref()),
             Call::Init { directory, choque_path } => init::init(directory, choque_path.as_deref()),

@@ -7,6 +7,8 @@ use std::process::ExitCode;
 use choque_scripting::Diagnostic;
 use thiserror::Error;
 
+use crate::recording::Broken;
+
 /// What a call that was carried out found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
@@ -14,6 +16,8 @@ pub enum Verdict {
     Holds,
     /// An expectation failed: exit code 1.
     ExpectationFailed,
+    /// Two runs are not the same: exit code 1.
+    Differ,
     /// An input is bad, and that has been told already: exit code 2.
     BadInput,
 }
@@ -22,7 +26,7 @@ impl From<Verdict> for ExitCode {
     fn from(verdict: Verdict) -> Self {
         ExitCode::from(match verdict {
             Verdict::Holds => 0,
-            Verdict::ExpectationFailed => 1,
+            Verdict::ExpectationFailed | Verdict::Differ => 1,
             Verdict::BadInput => 2,
         })
     }
@@ -43,6 +47,14 @@ pub enum Error {
         path: PathBuf,
         /// Why not.
         source: io::Error,
+    },
+    /// A recording that is none, or no longer whole.
+    #[error("error: cannot read {}: {broken}\n  = help: record the run again: choque run FILE --record {}", .path.display(), .path.display())]
+    Recording {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it, and where.
+        broken: Broken,
     },
     /// The call itself asks for something that cannot be.
     #[error("error: {message}\n  = help: {hint}")]

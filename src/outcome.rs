@@ -1,7 +1,7 @@
 //! What a run came to, as data: the object that `run --format json` prints.
 
 use choque_engine::{Work, World};
-use choque_scripting::{Expectation, Scenario};
+use choque_scripting::{Expectation, Scenario, Target};
 use serde::{Deserialize, Serialize, Serializer};
 
 use crate::books::Books;
@@ -38,6 +38,9 @@ pub struct Outcome {
     pub bodies: Vec<BodyOutcome>,
     /// What the script expected, and whether it held.
     pub expectations: Vec<Judgement>,
+    /// What the script wants, and what that came to; left out when it wants nothing.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub targets: Vec<Measured>,
     /// What changed the energy and the momenta, where it was kept account of.
     #[serde(skip_serializing_if = "Option::is_none", serialize_with = "plainly")]
     pub ledger: Option<Books>,
@@ -66,6 +69,17 @@ pub struct BodyOutcome {
     pub spin: f64,
     /// Mass.
     pub mass: f64,
+}
+
+/// A target as it was measured.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Measured {
+    /// What the script says.
+    pub text: String,
+    /// How much it counts.
+    pub weight: f64,
+    /// What it came to; it should be 0.
+    pub residual: f64,
 }
 
 /// An expectation as it was judged.
@@ -102,9 +116,16 @@ impl Outcome {
             digest: hexadecimal(world.digest()),
             bodies: bodies(world),
             expectations: expectations.into_iter().map(Judgement::from).collect(),
+            targets: Vec::new(),
             ledger: world.ledger().map(|ledger| Books::of(&ledger)),
             work: *world.work(),
         }
+    }
+
+    /// The same outcome with what the targets came to.
+    #[must_use]
+    pub fn with_targets(self, targets: Vec<Target>) -> Self {
+        Outcome { targets: targets.into_iter().map(Measured::from).collect(), ..self }
     }
 
     /// A total that is not finite: masses and velocities may each be, and their product not.
@@ -150,6 +171,12 @@ fn bodies(world: &World) -> Vec<BodyOutcome> {
         }
     };
     world.ids().map(body).collect()
+}
+
+impl From<Target> for Measured {
+    fn from(Target { text, weight, residual }: Target) -> Self {
+        Measured { text, weight, residual: positive_zero(residual) }
+    }
 }
 
 impl From<Expectation> for Judgement {

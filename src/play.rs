@@ -1,7 +1,7 @@
 //! A scenario played to its end, with someone watching.
 
 use choque_engine::{Hit, World};
-use choque_scripting::{Expectation, Run, Scenario, Step};
+use choque_scripting::{Expectation, Moment, Run, Scenario, Step};
 
 use crate::Error;
 use crate::output::numbers::counted;
@@ -10,6 +10,17 @@ use crate::output::numbers::counted;
 pub trait Watch {
     /// One more iteration is finished.
     fn iteration(&mut self, world: &World, hits: &[Hit]);
+
+    /// An iteration has come that far; most do not care.
+    fn moment(&mut self, _: &World, _: Moment) {}
+}
+
+/// Nobody watches: only the end matters.
+#[derive(Clone, Copy, Debug)]
+pub struct Unwatched;
+
+impl Watch for Unwatched {
+    fn iteration(&mut self, _: &World, _: &[Hit]) {}
 }
 
 /// Plays a run to its end and judges the expectations.
@@ -19,7 +30,7 @@ pub trait Watch {
 pub fn play(run: &mut Run, watch: &mut impl Watch) -> Result<Vec<Expectation>, Error> {
     let steps = run.world().plan().steps;
     while run.world().iteration() < steps {
-        let step = run.step()?;
+        let step = run.step_told(&mut |world, moment| watch.moment(world, moment))?;
         watch.iteration(&run.world(), run.hits());
         if step == Step::Done {
             break;

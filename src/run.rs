@@ -3,14 +3,17 @@
 use std::path::PathBuf;
 
 use choque_engine::{Hit, World, note};
-use choque_scripting::Scenario;
+use choque_scripting::{Moment, Scenario};
 
-use crate::arguments::{ScenarioArguments, threads};
+use crate::arguments::{ScenarioArguments, every, threads};
 use crate::outcome::Outcome;
 use crate::output::rows::{self, Rows};
 use crate::output::{json, ron, text};
 use crate::play::{FirstMeetings, Watch, play};
 use crate::progress::Progress;
+use crate::recording::about;
+use crate::recording::file::RECORDING;
+use crate::recording::recorder::{IntoFile, Recorder, Settings};
 use crate::{Error, Verdict, terminal};
 
 /// What `run` is given.
@@ -27,6 +30,12 @@ pub struct RunArguments {
     /// Write what each exchange changed of energy and momenta, and by what cause: a row each, as CSV
     #[arg(long, value_name = "FILE")]
     pub ledger: Option<PathBuf>,
+    /// Keep the whole run in a file, to be drawn, played and compared
+    #[arg(long, value_name = "FILE.choque")]
+    pub record: Option<PathBuf>,
+    /// Iterations from one recorded frame to the next
+    #[arg(long, value_name = "N", default_value = "1", requires = "record", value_parser = every, allow_negative_numbers = true)]
+    pub record_every: u64,
     /// Threads that share an iteration; the result never depends on it
     #[arg(long, value_name = "N", default_value = "1", value_parser = threads, allow_negative_numbers = true)]
     pub threads: usize,
@@ -57,22 +66,28 @@ pub fn run(arguments: &RunArguments) -> Result<Verdict, Error> {
     if let Some(path) = &arguments.ledger {
         rows::LEDGER.check(path)?;
     }
+    if let Some(path) = &arguments.record {
+        RECORDING.check(path)?;
+    }
     let scenario = Scenario::load(&arguments.file, &arguments.scenario.options())?;
     let mut run = scenario.start()?;
     run.keep_ledger();
     run.set_threads(arguments.threads);
     tell_notes(&scenario, &run.world());
+    let settings = Settings { every: arguments.record_every, ledger: true, command: about::this_call() };
+    let recorder = arguments.record.as_ref().map(|_| Recorder::into_file(&scenario, &mut run, &settings));
     let mut watcher = Watcher {
+        recorder,
         meetings: FirstMeetings::new(MEETINGS),
         rows: arguments.ledger.as_ref().map(|_| Rows::begin()),
         progress: Progress::new(run.world().plan().steps),
     };
     let played = play(&mut run, &mut watcher);
-    let Watcher { meetings, rows, progress } = watcher;
+    let Watcher { recorder, meetings, rows, progress } = watcher;
     drop(progress); // clears its line before anything else is printed
     let expectations = played?;
     let world = run.world();
-    let outcome = Outcome::new(&scenario, &world, expectations);
+    let outcome = Outcome::new(&scenario, &world, expectations).with_targets(run.measure()?);
     if let Some(total) = outcome.total_beyond_numbers() {
         return Err(Error::Call {
             message: format!("the {total} is beyond the range of numbers, though no single body is"),
@@ -81,6 +96,9 @@ pub fn run(arguments: &RunArguments) -> Result<Verdict, Error> {
     }
     if let Some((rows, path)) = rows.zip(arguments.ledger.as_ref()) {
         rows.write(path)?;
+    }
+    if let Some((recorder, path)) = recorder.zip(arguments.record.as_ref()) {
+        recorder.finish(&world, &outcome.expectations, path)?;
     }
     match arguments.format {
         Format::Text => {
@@ -95,6 +113,7 @@ pub fn run(arguments: &RunArguments) -> Result<Verdict, Error> {
 }
 
 struct Watcher {
+    recorder: Option<Recorder<IntoFile>>,
     meetings: FirstMeetings,
     rows: Option<Rows>,
     progress: Progress,
@@ -106,7 +125,16 @@ impl Watch for Watcher {
         if let Some(rows) = &mut self.rows {
             rows.iteration(world, hits);
         }
+        if let Some(recorder) = &mut self.recorder {
+            recorder.iteration(world, hits);
+        }
         self.progress.reached(world.iteration());
+    }
+
+    fn moment(&mut self, world: &World, moment: Moment) {
+        if let Some(recorder) = &mut self.recorder {
+            recorder.moment(world, moment);
+        }
     }
 }
 

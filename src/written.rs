@@ -43,7 +43,7 @@ impl Kind {
 }
 
 /// Writes beside the file first and renames then: whoever reads it sees the old one or the new one, never half of it. A link
-/// stays a link to what is replaced.
+/// stays a link to what is replaced, and what is replaced keeps its permissions.
 ///
 /// # Errors
 /// A file or folder that cannot be written.
@@ -51,7 +51,7 @@ pub fn replace(path: &Path, mut content: impl Read) -> Result<(), Error> {
     let mut write = || {
         let path = &path.canonicalize().unwrap_or_else(|_| path.to_owned());
         let mut builder = tempfile::Builder::new();
-        let permissions = usual_permissions();
+        let permissions = path.metadata().ok().map(|known| known.permissions()).or_else(usual_permissions);
         if let Some(permissions) = permissions {
             builder.permissions(permissions);
         }

@@ -83,6 +83,23 @@ impl World {
         Ok(())
     }
 
+    /// Has the world remember which bodies commands write to.
+    pub fn remember_commands(&mut self) {
+        self.commanded.get_or_insert_default();
+    }
+
+    /// The bodies that commands wrote to since the last iteration began, in order, each as often as it was; none unless
+    /// [`remember_commands`](Self::remember_commands) was called.
+    #[must_use]
+    pub fn commanded(&self) -> &[BodyId] {
+        self.commanded.as_deref().unwrap_or_default()
+    }
+
+    /// The pushes that act over the next advance, by body: force \[N\] and torque \[N·m\].
+    pub fn pushes(&self) -> impl Iterator<Item = (BodyId, Vec2, f64)> {
+        self.pushes.iter().map(|push| (BodyId(push.body), push.force, push.torque))
+    }
+
     fn pushed(&mut self, id: BodyId, verb: &'static str) -> Result<&mut Push, CommandError> {
         if !self.bodies.is_mobile(id.index()) {
             return Err(CommandError::Fixed { body: self.name(id).to_owned(), verb });
@@ -101,6 +118,9 @@ impl World {
     /// Something is about to be done to a body: what is foreseen of it no longer holds.
     fn disturb(&mut self, id: BodyId) {
         self.interrupt(id.index());
+        if let Some(commanded) = &mut self.commanded {
+            commanded.push(id);
+        }
         if let Some(contacts) = &mut self.contacts {
             contacts.wake();
         }

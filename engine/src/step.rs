@@ -63,6 +63,9 @@ impl World {
     pub fn begin(&mut self) {
         self.listed.clear();
         self.treated = 0;
+        if let Some(commanded) = &mut self.commanded {
+            commanded.clear();
+        }
         if let Some(ledger) = &mut self.ledger {
             ledger.begin();
         }
@@ -101,6 +104,12 @@ impl World {
             }
         }
         None
+    }
+
+    /// The pairs this iteration found overlapping after its advance, in order. Only where motion is stepped and contacts do not
+    /// last is there such a list.
+    pub fn listed(&self) -> impl ExactSizeIterator<Item = (BodyId, BodyId)> {
+        self.listed.iter().map(|&(a, b)| (BodyId(a), BodyId(b)))
     }
 
     /// Ends the iteration.

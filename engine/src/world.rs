@@ -41,6 +41,8 @@ pub struct World {
     pub(crate) movers: Movers,
     pub(crate) broad_phase: BroadPhase,
     pub(crate) pushes: Vec<Push>,
+    /// The bodies that commands wrote to since the last iteration began, once that is asked for.
+    pub(crate) commanded: Option<Vec<BodyId>>,
     /// From which side overlaps came about.
     pub(crate) sides: Sides,
     /// Pairs listed as overlapping in this iteration, in order, and how many of them have been treated.
@@ -97,6 +99,7 @@ impl World {
             bodies,
             movers,
             pushes: Vec::new(),
+            commanded: None,
             sides: Sides::default(),
             listed: Vec::with_capacity(scene.bodies.len() / 2 + 16),
             treated: 0,

@@ -1,10 +1,12 @@
-//! The one clock of this crate: it stops a script that does not come to an end by itself.
+//! The one clock of this crate: it stops a script that does not come to an end by itself, or that is asked to.
 
 #![allow(clippy::disallowed_methods, clippy::disallowed_types)] // no result depends on it, only whether there is one
 
 use std::cell::Cell;
 use std::rc::Rc;
 use std::time::{Duration, Instant};
+
+use crate::options::Stop;
 
 /// Operations between two looks at the clock.
 const BETWEEN_LOOKS: u64 = 256;
@@ -14,16 +16,21 @@ const BETWEEN_LOOKS: u64 = 256;
 pub(crate) struct Clock {
     limit: Duration,
     deadline: Rc<Cell<Option<Instant>>>,
+    stop: Stop,
+}
+
+/// Why a script was stopped.
+#[derive(Clone, Copy)]
+pub(crate) enum Stopped {
+    /// It was given that much time, and took more.
+    OutOfTime(Duration),
+    /// Someone outside wanted it so.
+    Asked,
 }
 
 impl Clock {
-    pub(crate) fn new(limit: Duration) -> Self {
-        Clock { limit, deadline: Rc::default() }
-    }
-
-    /// The time a script is given.
-    pub(crate) fn limit(&self) -> Duration {
-        self.limit
+    pub(crate) fn new(limit: Duration, stop: Stop) -> Self {
+        Clock { limit, deadline: Rc::default(), stop }
     }
 
     /// From now on the script has its full time again.
@@ -31,9 +38,15 @@ impl Clock {
         self.deadline.set(Instant::now().checked_add(self.limit));
     }
 
-    /// Whether the time is up; looks only now and then.
-    pub(crate) fn has_run_out(&self, operations: u64) -> bool {
-        operations.is_multiple_of(BETWEEN_LOOKS)
-            && self.deadline.get().is_some_and(|deadline| Instant::now() >= deadline)
+    /// Whether the script has to end; looks only now and then.
+    pub(crate) fn look(&self, operations: u64) -> Option<Stopped> {
+        if !operations.is_multiple_of(BETWEEN_LOOKS) {
+            return None;
+        }
+        if self.stop.is_asked() {
+            return Some(Stopped::Asked);
+        }
+        let is_over = self.deadline.get().is_some_and(|deadline| Instant::now() >= deadline);
+        is_over.then_some(Stopped::OutOfTime(self.limit))
     }
 }

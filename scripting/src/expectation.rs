@@ -39,9 +39,11 @@ pub(crate) enum When {
     AtTheEnd,
     /// `always`: after every iteration, until it fails.
     AfterEveryIteration,
+    /// `target`: once, at the end, and by whoever wants the number.
+    Measured,
 }
 
-/// An expectation as a script declares it.
+/// An expectation or a target as a script declares it.
 pub(crate) struct Pending {
     pub(crate) text: ImmutableString,
     pub(crate) when: When,
@@ -54,7 +56,11 @@ pub(crate) struct Pending {
 impl Pending {
     /// `always "nothing explodes"`.
     pub(crate) fn title(&self) -> String {
-        let word = if self.when == When::AtTheEnd { "expect" } else { "always" };
+        let word = match self.when {
+            When::AtTheEnd => "expect",
+            When::AfterEveryIteration => "always",
+            When::Measured => "target",
+        };
         format!("{word} \"{}\"", self.text)
     }
 }

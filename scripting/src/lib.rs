@@ -4,6 +4,7 @@
 //! |---|---|
 //! | how is a scenario loaded and run? | [`Scenario`], [`Run`] |
 //! | which words are there? | [`words`] |
+//! | what may be tuned, and how does it get into the script? | [`Control`], [`rewrite`](rewrite()) |
 //! | what may a script do? | `sandbox.rs`, `library.rs`, `modules.rs` |
 //! | what does a person see when something is wrong? | [`Diagnostic`]; `blame.rs` finds the place, `phrase.rs`, `calls.rs` and `syntax.rs` the words |
 //! | where do words keep what they build? | `session.rs`, `draft.rs`, `params.rs` |
@@ -24,16 +25,20 @@
 //! # Ok::<(), choque_scripting::Diagnostic>(())
 //! ```
 
+mod bare_names;
 mod blame;
 mod callbacks;
 mod calls;
 mod clock;
+mod control;
 mod draft;
 mod error;
 mod expectation;
+mod fit;
 mod generator;
 mod guard;
 mod handles;
+mod lexed;
 mod library;
 mod modules;
 mod number;
@@ -43,6 +48,7 @@ mod params;
 mod phrase;
 mod plain;
 mod repairs;
+mod rewrite;
 mod run;
 mod sandbox;
 mod scenario;
@@ -52,10 +58,15 @@ mod source;
 mod suggest;
 mod syntax;
 pub mod words;
+mod write_back;
 
 pub use callbacks::Callbacks;
+pub use control::Control;
 pub use error::Diagnostic;
 pub use expectation::Expectation;
-pub use options::{Options, Output, Overrides};
-pub use run::{Run, Step};
+pub use fit::{Target, Varied};
+pub use options::{Options, Output, Overrides, Reads, Stop};
+pub use rewrite::rewrite;
+pub use run::{Moment, Run, Step};
 pub use scenario::Scenario;
+pub use write_back::write_back;

@@ -7,6 +7,7 @@ use std::io::ErrorKind;
 use std::path::{Component, Path, PathBuf};
 
 use crate::error::{Complaint, Diagnostic};
+use crate::options::Reads;
 use crate::suggest::nearest;
 
 /// No script, scene or model is larger than that; what is, was not meant.
@@ -18,6 +19,9 @@ pub(crate) struct Library {
     roots: Vec<PathBuf>,
     /// By the name that errors show.
     texts: RefCell<BTreeMap<String, String>>,
+    /// The models, for the record.
+    models: RefCell<BTreeMap<String, String>>,
+    reads: Reads,
 }
 
 /// A file that was found.
@@ -39,14 +43,19 @@ impl Found {
 impl Library {
     /// For a script, and the library given or, failing that, the nearest folder above the script that is
     /// named `scenarios`.
-    pub(crate) fn new(script: &Path, library: Option<&Path>) -> Self {
+    pub(crate) fn new(script: &Path, library: Option<&Path>, reads: Reads) -> Self {
         let folder = match script.parent() {
             Some(parent) if !parent.as_os_str().is_empty() => parent.to_owned(),
             _ => PathBuf::from("."),
         };
         let library = library.map(Path::to_owned).or_else(|| scenarios_above(&folder));
         let library = library.filter(|library| *library != folder);
-        Library { roots: std::iter::once(folder).chain(library).collect(), texts: RefCell::default() }
+        Library {
+            roots: std::iter::once(folder).chain(library).collect(),
+            texts: RefCell::default(),
+            models: RefCell::default(),
+            reads,
+        }
     }
 
     /// Looks a file up; the extension may be left out of the path.
@@ -61,6 +70,7 @@ impl Library {
         let roots: Vec<PathBuf> = self.roots.iter().filter_map(|root| root.canonicalize().ok()).collect();
         for root in &self.roots {
             let shown = if root == Path::new(".") { relative.clone() } else { root.join(&relative) };
+            self.reads.tell(&shown);
             let Ok(canonical) = root.join(&relative).canonicalize() else { continue };
             if !roots.iter().any(|root| canonical.starts_with(root)) {
                 return Err(Complaint::new(format!(
@@ -94,6 +104,17 @@ impl Library {
     /// Keeps a script's text, for errors to show its lines.
     pub(crate) fn keep(&self, name: &str, text: &str) {
         self.texts.borrow_mut().insert(name.to_owned(), text.to_owned());
+    }
+
+    /// Keeps a model's text, for the record.
+    pub(crate) fn keep_model(&self, name: &str, text: String) {
+        self.models.borrow_mut().insert(name.to_owned(), text);
+    }
+
+    /// The name and text of every script and every model read so far.
+    pub(crate) fn texts_read(&self) -> Vec<(String, String)> {
+        let all = |texts: &RefCell<BTreeMap<String, String>>| texts.borrow().clone();
+        all(&self.texts).into_iter().chain(all(&self.models)).collect()
     }
 
     /// The text of every script read so far, one after the other.

@@ -5,17 +5,17 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::rc::Rc;
 
-use rhai::{Engine, EvalAltResult, GlobalRuntimeState, Module, ModuleResolver, Position, Scope, Shared};
+use rhai::{AST, Engine, EvalAltResult, GlobalRuntimeState, Module, ModuleResolver, Position, Scope, Shared};
 
 use crate::error::{Complaint, Diagnostic};
 use crate::library::{Found, Library, read_text};
 use crate::sandbox;
-use crate::session::{RhaiResultOf, complain};
+use crate::session::{self, RhaiResultOf, complain};
 
-/// Finds, reads and runs modules; each is run once, however often it is imported.
+/// Finds, reads and compiles modules, each once; a session runs each once, however often it is imported.
 pub(crate) struct Resolver {
     library: Rc<Library>,
-    done: RefCell<BTreeMap<PathBuf, Shared<Module>>>,
+    compiled: RefCell<BTreeMap<PathBuf, Rc<AST>>>,
     /// The scripts being run, outermost first: one that is met again imports itself.
     running: RefCell<Vec<Found>>,
 }
@@ -23,7 +23,7 @@ pub(crate) struct Resolver {
 impl Resolver {
     /// A resolver for a script.
     pub(crate) fn new(library: Rc<Library>, script: Found) -> Self {
-        Resolver { library, done: RefCell::default(), running: RefCell::new(vec![script]) }
+        Resolver { library, compiled: RefCell::default(), running: RefCell::new(vec![script]) }
     }
 
     fn find(&self, path: &str) -> Result<Found, Complaint> {
@@ -40,15 +40,24 @@ impl Resolver {
         Ok(found)
     }
 
-    fn run(&self, engine: &Engine, global: &mut GlobalRuntimeState, found: &Found) -> RhaiResultOf<Shared<Module>> {
+    fn compile(&self, engine: &Engine, found: &Found, name: &str) -> RhaiResultOf<Rc<AST>> {
+        if let Some(ast) = self.compiled.borrow().get(&found.canonical) {
+            return Ok(ast.clone());
+        }
         let text = read_text(&found.canonical, &found.shown).map_err(as_script_error)?;
+        self.library.keep(name, &text);
+        let mut ast = sandbox::compile(engine, &text).map_err(|error| within(name, Box::new(error.into())))?;
+        ast.set_source(name);
+        let ast = Rc::new(ast);
+        self.compiled.borrow_mut().insert(found.canonical.clone(), ast.clone());
+        Ok(ast)
+    }
+
+    fn run(&self, engine: &Engine, global: &mut GlobalRuntimeState, found: &Found) -> RhaiResultOf<Shared<Module>> {
         let name = found.shown.display().to_string();
-        self.library.keep(&name, &text);
-        let within = |error| EvalAltResult::ErrorInModule(name.clone(), error, Position::NONE);
-        let mut ast = sandbox::compile(engine, &text).map_err(|error| within(Box::new(error.into())))?;
-        ast.set_source(&name);
-        let module = Module::eval_ast_as_new_raw(engine, &mut Scope::new(), global, &ast).map_err(within)?;
-        Ok(module.into())
+        let ast = self.compile(engine, found, &name)?;
+        let module = Module::eval_ast_as_new_raw(engine, &mut Scope::new(), global, &ast);
+        Ok(module.map_err(|error| within(&name, error))?.into())
     }
 }
 
@@ -62,8 +71,10 @@ impl ModuleResolver for Resolver {
         position: Position,
     ) -> RhaiResultOf<Shared<Module>> {
         let found = self.find(path).map_err(|complaint| complain(complaint, position))?;
-        if let Some(module) = self.done.borrow().get(&found.canonical) {
-            return Ok(module.clone());
+        let session = session::of(&global.tag);
+        let known = session.as_ref().and_then(|session| session.borrow().modules.get(&found.canonical).cloned());
+        if let Some(module) = known {
+            return Ok(module);
         }
         self.running.borrow_mut().push(found.clone());
         let outcome = self.run(engine, global, &found);
@@ -72,7 +83,9 @@ impl ModuleResolver for Resolver {
             error.set_position(position);
             error
         })?;
-        self.done.borrow_mut().insert(found.canonical, module.clone());
+        if let Some(session) = session {
+            session.borrow_mut().modules.insert(found.canonical, module.clone());
+        }
         Ok(module)
     }
 
@@ -85,6 +98,10 @@ impl ModuleResolver for Resolver {
     ) -> RhaiResultOf<Shared<Module>> {
         self.resolve_raw(engine, &mut engine.new_global_runtime_state(), &mut Scope::new(), path, position)
     }
+}
+
+fn within(module: &str, error: Box<EvalAltResult>) -> Box<EvalAltResult> {
+    EvalAltResult::ErrorInModule(module.to_owned(), error, Position::NONE).into()
 }
 
 fn as_script_error(diagnostic: Diagnostic) -> Box<EvalAltResult> {

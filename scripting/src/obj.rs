@@ -4,7 +4,7 @@
 //! the format does not know is an error with its line, for it is perhaps a mistyped vertex.
 
 use crate::error::{Complaint, Elsewhere};
-use crate::library::{Found, read_text};
+use crate::library::{Found, Library, read_text};
 
 /// The other statements of the format (Wavefront's specification, version 3.0, and `l`, `mtllib` as written today).
 const PASSED_OVER: [&str; 37] = [
@@ -47,14 +47,14 @@ const PASSED_OVER: [&str; 37] = [
     "maplib",
 ];
 
-/// Reads the vertices `[x, y, z]` of a file.
+/// Reads the vertices `[x, y, z]` of a file, which the library remembers.
 ///
 /// # Errors
 /// What cannot be read, an unknown statement, a number that is none.
-pub(crate) fn read_vertices(found: &Found) -> Result<Vec<[f64; 3]>, Complaint> {
+pub(crate) fn read_vertices(library: &Library, found: &Found) -> Result<Vec<[f64; 3]>, Complaint> {
     let text = read_text(&found.canonical, &found.shown)
         .map_err(|error| Complaint::new(format!("model: {}", error.message)).maybe_hint(error.hint))?;
-    parse(&text).map_err(|wrong| Complaint {
+    let vertices = parse(&text).map_err(|wrong| Complaint {
         elsewhere: Some(Box::new(Elsewhere {
             file: found.shown.clone(),
             line: wrong.line,
@@ -62,7 +62,9 @@ pub(crate) fn read_vertices(found: &Found) -> Result<Vec<[f64; 3]>, Complaint> {
             text: text.clone(),
         })),
         ..Complaint::new(wrong.message)
-    })
+    })?;
+    library.keep_model(&found.shown.display().to_string(), text);
+    Ok(vertices)
 }
 
 /// What is wrong with a file, and where; lines and columns count from 1.

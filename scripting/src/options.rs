@@ -1,9 +1,12 @@
-//! What the caller of a scenario decides: tunable numbers, overrides, where the library is, where `print` goes.
+//! What the caller of a scenario decides: tunable numbers, overrides, where the library is, where `print` goes, who is
+//! told of files that are read, and who may stop it.
 
 use std::fmt;
 use std::io::Write as _;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::rc::Rc;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use choque_engine::scene::{BroadPhaseChoice, Detection, ExchangeRule, MotionRule, Settings};
@@ -23,6 +26,10 @@ pub struct Options {
     pub script_timeout: Duration,
     /// Where `print` and `debug` write.
     pub output: Output,
+    /// Who is told of the files that the scenario reads.
+    pub reads: Reads,
+    /// Stops the script from outside.
+    pub stop: Stop,
 }
 
 impl Default for Options {
@@ -33,6 +40,8 @@ impl Default for Options {
             library: None,
             script_timeout: Duration::from_secs(10),
             output: Output::default(),
+            reads: Reads::default(),
+            stop: Stop::default(),
         }
     }
 }
@@ -46,6 +55,8 @@ pub struct Overrides {
     pub time_step: Option<f64>,
     /// `--substeps`, 1 … 1000.
     pub substeps: Option<u32>,
+    /// `--seed`.
+    pub seed: Option<i64>,
     /// `--exchange`.
     pub exchange: Option<ExchangeRule>,
     /// `--detection`.
@@ -61,6 +72,7 @@ impl Overrides {
         settings.steps = self.steps.unwrap_or(settings.steps);
         settings.time_step = self.time_step.unwrap_or(settings.time_step);
         settings.substeps = self.substeps.or(settings.substeps);
+        settings.seed = self.seed.unwrap_or(settings.seed);
         settings.exchange = self.exchange.unwrap_or(settings.exchange);
         settings.detection = self.detection.or(settings.detection);
         settings.motion = self.motion.unwrap_or(settings.motion);
@@ -93,5 +105,50 @@ impl Default for Output {
 impl fmt::Debug for Output {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("Output")
+    }
+}
+
+/// Told of every file that a scenario reads or looks for, the scenario's own first, just before it does: for whoever
+/// wants to know when one of them changes. Nobody by default.
+#[derive(Clone)]
+pub struct Reads(Rc<dyn Fn(&Path)>);
+
+impl Reads {
+    /// Hands every path to a function.
+    pub fn to(tell: impl Fn(&Path) + 'static) -> Self {
+        Reads(Rc::new(tell))
+    }
+
+    pub(crate) fn tell(&self, file: &Path) {
+        (self.0)(file);
+    }
+}
+
+impl Default for Reads {
+    fn default() -> Self {
+        Reads::to(|_| ())
+    }
+}
+
+impl fmt::Debug for Reads {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Reads")
+    }
+}
+
+/// Stops the main part or a callback of a script from another thread, once and for all; clones stop together.
+#[derive(Clone, Debug, Default)]
+pub struct Stop(Arc<AtomicBool>);
+
+impl Stop {
+    /// Whatever runs ends as soon as it looks; whatever begins ends at once.
+    pub fn ask(&self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
+
+    /// Whether that was asked for.
+    #[must_use]
+    pub fn is_asked(&self) -> bool {
+        self.0.load(Ordering::Relaxed)
     }
 }

@@ -6,6 +6,7 @@ use choque_engine::check;
 use choque_engine::scene::{Param, Settings};
 use rhai::{Dynamic, ImmutableString};
 
+use crate::control::Control;
 use crate::error::Complaint;
 use crate::number;
 use crate::session::Site;
@@ -13,6 +14,18 @@ use crate::suggest::did_you_mean;
 
 /// Settings that `--set` reaches by their own names.
 pub(crate) const SETTINGS: [&str; 5] = ["mu_l", "mu_a", "epsilon", "restitution", "friction"];
+
+/// The value of one of them.
+pub(crate) fn setting(settings: &Settings, name: &str) -> Option<f64> {
+    match name {
+        "mu_l" => Some(settings.mu_l),
+        "mu_a" => Some(settings.mu_a),
+        "epsilon" => Some(settings.epsilon),
+        "restitution" => Some(settings.restitution),
+        "friction" => Some(settings.friction),
+        _ => None,
+    }
+}
 
 /// Tunable numbers a script may declare.
 const MOST_PARAMS: usize = 1000;
@@ -28,6 +41,8 @@ pub(crate) struct Params {
 struct Declared {
     param: Param,
     default: f64,
+    /// Whether the script wrote its default, and its bounds if any, as whole numbers.
+    is_whole: bool,
     /// What the script gets: a whole number stays one, so that it can count.
     value: Dynamic,
     site: Site,
@@ -66,7 +81,8 @@ impl Params {
         let value = given.unwrap_or(number);
         check_given(name, value, range)?;
         let param = Param { name: name.to_string(), value, range };
-        let declared = Declared { param, default: number, value: as_written(default, value), site };
+        let is_whole = default.is_int() && range.is_none_or(|(min, max)| is_whole(min) && is_whole(max));
+        let declared = Declared { param, default: number, is_whole, value: as_written(default, value), site };
         let value = declared.value.clone();
         self.declared.push(declared);
         Ok(value)
@@ -114,6 +130,18 @@ impl Params {
         }
     }
 
+    /// What may be tuned of it, in order of declaration.
+    pub(crate) fn controls(&self) -> impl Iterator<Item = Control> {
+        self.declared.iter().map(|known| Control {
+            name: known.param.name.clone(),
+            is_param: true,
+            value: known.param.value,
+            written: known.default,
+            range: known.param.range,
+            is_whole: known.is_whole,
+        })
+    }
+
     /// The numbers and their values, for the scene's record.
     pub(crate) fn record(&self) -> Vec<Param> {
         self.declared.iter().map(|known| known.param.clone()).collect()
@@ -138,7 +166,7 @@ impl Declared {
     }
 }
 
-fn check_setting(name: &str, value: f64) -> Result<f64, choque_engine::BadNumber> {
+pub(crate) fn check_setting(name: &str, value: f64) -> Result<f64, choque_engine::BadNumber> {
     match name {
         "mu_l" | "mu_a" | "epsilon" | "friction" => check::not_negative(name, value),
         "restitution" => check::unit_range(name, value),
@@ -168,6 +196,10 @@ fn check_given(name: &str, value: f64, range: Option<(f64, f64)>) -> Result<(), 
         }
         _ => Ok(()),
     }
+}
+
+fn is_whole(bound: f64) -> bool {
+    libm::trunc(bound) == bound
 }
 
 /// Where the script wrote a whole number and the value is whole, a whole number.

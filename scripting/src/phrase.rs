@@ -4,6 +4,7 @@ use rhai::EvalAltResult;
 
 use crate::blame::Place;
 use crate::calls;
+use crate::clock::Stopped;
 use crate::error::Complaint;
 use crate::guard::{self, MOST_NESTING};
 use crate::number::{kind_named, kind_of};
@@ -61,11 +62,14 @@ fn limit(error: &EvalAltResult) -> Option<Complaint> {
             Complaint::new(format!("the script made {MOST_OPERATIONS} operations and came to no end"))
                 .hint("is there an endless loop?")
         }
-        E::ErrorTerminated(..) => {
-            let seconds = sandbox::time_given(error)?.as_secs_f64();
-            Complaint::new(format!("the script ran for more than {seconds} s and came to no end"))
-                .hint("is there an endless loop? --script-timeout gives it more time")
-        }
+        E::ErrorTerminated(..) => match sandbox::why_stopped(error)? {
+            Stopped::OutOfTime(given) => {
+                let seconds = given.as_secs_f64();
+                Complaint::new(format!("the script ran for more than {seconds} s and came to no end"))
+                    .hint("is there an endless loop? --script-timeout gives it more time")
+            }
+            Stopped::Asked => Complaint::new("the script was stopped before its end"),
+        },
         E::ErrorStackOverflow(_) => Complaint::new(format!("functions call each other more than {MOST_CALLS} deep"))
             .hint("does a function call itself without end?"),
         E::ErrorTooManyVariables(_) => {

@@ -4,31 +4,46 @@ use std::path::Path;
 
 use choque_engine::{Scene, SceneError};
 
+use crate::control::{self, Control};
 use crate::error::{Complaint, Diagnostic};
-use crate::options::Options;
+use crate::options::Overrides;
 use crate::params::Params;
 use crate::syntax::lower;
 
-/// Reads a scene, with everything said from outside applied.
+/// Reads a scene as it is written.
 ///
 /// # Errors
-/// What is no scene, with its line; a `--set` that nothing answers to.
-pub(crate) fn read(file: &Path, text: &str, options: &Options) -> Result<Scene, Diagnostic> {
-    let mut scene: Scene = ron::from_str(text).map_err(|error| {
+/// What is no scene, with its line.
+pub(crate) fn read(file: &Path, text: &str) -> Result<Scene, Diagnostic> {
+    ron::from_str(text).map_err(|error| {
         let at = error.span.start;
         Diagnostic::new(format!("not a scene: {}", lower(&error.code.to_string()))).at(file, text, at.line, at.col)
-    })?;
+    })
+}
+
+/// Applies everything said from outside; gives what may be tuned.
+///
+/// # Errors
+/// A `--set` that nothing answers to.
+pub(crate) fn apply(
+    scene: &mut Scene,
+    file: &Path,
+    set: &[(String, f64)],
+    overrides: &Overrides,
+) -> Result<Vec<Control>, Diagnostic> {
     let complain = |complaint: Complaint| Diagnostic::of(complaint).in_file(file);
-    let params = Params::new(&options.set).map_err(complain)?;
+    let params = Params::new(set).map_err(complain)?;
     if let Some(complaint) = params.unanswered() {
-        let used = options.set.iter().any(|(name, _)| scene.params.iter().any(|param| param.name == *name));
+        let used = set.iter().any(|(name, _)| scene.params.iter().any(|param| param.name == *name));
         let hint =
             used.then(|| "a .ron scene is plain data: its params have been used; set them for its script".to_owned());
         return Err(complain(complaint.maybe_hint(hint)));
     }
+    let written = scene.settings.clone();
     params.apply_to(&mut scene.settings);
-    options.overrides.apply_to(&mut scene.settings);
-    Ok(scene)
+    let controls = control::of_settings(&written, &scene.settings).collect();
+    overrides.apply_to(&mut scene.settings);
+    Ok(controls)
 }
 
 /// A scene that cannot run, shown at the line that names the body.

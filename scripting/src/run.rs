@@ -11,6 +11,7 @@ use rhai::Dynamic;
 use crate::callbacks::{ON_COLLISION, ON_STEP, STOP_WHEN};
 use crate::error::{Complaint, Diagnostic};
 use crate::expectation::{Expectation, Failure, When, judge};
+use crate::fit::{self, Target};
 use crate::handles;
 use crate::number::must_give;
 use crate::plain;
@@ -47,6 +48,19 @@ pub enum Step {
     Done,
 }
 
+/// Where an iteration stands when it is told of from within.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Moment<'a> {
+    /// `on_step` has been called; nothing has moved yet.
+    Commanded,
+    /// Every body has advanced, and what overlaps is listed. Continuous motion and lasting contact do more by then.
+    Begun,
+    /// An exchange was made; `on_collision` has not been called yet.
+    Exchanged(&'a Hit),
+    /// `on_collision` has been called for it.
+    Answered(&'a Hit),
+}
+
 impl Run {
     pub(crate) fn plain(world: World, steps: u64, file: &Path, text: &str) -> Self {
         let source = Source::Plain { file: file.to_owned(), text: text.to_owned() };
@@ -77,6 +91,11 @@ impl Run {
         self.world.borrow_mut().keep_ledger();
     }
 
+    /// Has the world remember which bodies callbacks write to ([`World::remember_commands`]).
+    pub fn remember_commands(&mut self) {
+        self.world.borrow_mut().remember_commands();
+    }
+
     /// Lets an iteration be shared by up to so many threads ([`World::set_threads`]).
     pub fn set_threads(&mut self, threads: usize) {
         self.world.borrow_mut().set_threads(threads);
@@ -94,16 +113,24 @@ impl Run {
     /// # Errors
     /// An error in a callback; a body that left the finite numbers.
     pub fn step(&mut self) -> Result<Step, Diagnostic> {
+        self.step_told(&mut |_, _| {})
+    }
+
+    /// The same, telling of every moment within the iteration and of the world as it is then.
+    ///
+    /// # Errors
+    /// As [`step`](Self::step).
+    pub fn step_told(&mut self, tell: &mut impl FnMut(&World, Moment)) -> Result<Step, Diagnostic> {
         if self.is_done {
             return Ok(Step::Done);
         }
         self.hits.clear();
         let stop = match &mut self.source {
             Source::Plain { .. } => {
-                iterate_alone(&self.world, &mut self.hits);
+                iterate_alone(&self.world, &mut self.hits, tell);
                 false
             }
-            Source::Script(scripted) => scripted.iterate(&self.world, &mut self.hits)?,
+            Source::Script(scripted) => scripted.iterate(&self.world, &mut self.hits, tell)?,
         };
         let world = self.world.borrow();
         if let Some(fault) = world.fault() {
@@ -125,6 +152,17 @@ impl Run {
     }
 }
 
+impl Run {
+    /// What the targets of the script come to on the world as it stands, in the script's order.
+    ///
+    /// # Errors
+    /// An error in a target.
+    pub fn measure(&self) -> Result<Vec<Target>, Diagnostic> {
+        let Source::Script(scripted) = &self.source else { return Ok(Vec::new()) };
+        scripted.script.aims.iter().map(|aim| fit::measure(&scripted.script, aim)).collect()
+    }
+}
+
 impl fmt::Debug for Run {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let world = self.world.borrow();
@@ -134,21 +172,30 @@ impl fmt::Debug for Run {
 
 impl Scripted {
     /// One iteration; gives whether the script wants to stop after it.
-    fn iterate(&mut self, world: &RefCell<World>, hits: &mut Vec<Hit>) -> Result<bool, Diagnostic> {
+    fn iterate(
+        &mut self,
+        world: &RefCell<World>,
+        hits: &mut Vec<Hit>,
+        tell: &mut impl FnMut(&World, Moment),
+    ) -> Result<bool, Diagnostic> {
         let callbacks = self.script.callbacks;
         if callbacks.on_step {
             drop(self.script.call(ON_STEP, &mut [Dynamic::from(handles::World)])?);
+            tell(&world.borrow(), Moment::Commanded);
         }
         if callbacks.on_collision {
             world.borrow_mut().begin();
+            tell(&world.borrow(), Moment::Begun);
             while let Some(hit) = next_hit(world) {
                 hits.push(hit);
-                let hit = Dynamic::from(handles::Hit::from(hit));
-                drop(self.script.call(ON_COLLISION, &mut [Dynamic::from(handles::World), hit])?);
+                tell(&world.borrow(), Moment::Exchanged(&hit));
+                let told = Dynamic::from(handles::Hit::from(hit));
+                drop(self.script.call(ON_COLLISION, &mut [Dynamic::from(handles::World), told])?);
+                tell(&world.borrow(), Moment::Answered(&hit));
             }
             world.borrow_mut().finish();
         } else {
-            iterate_alone(world, hits);
+            iterate_alone(world, hits, tell);
         }
         if world.borrow().fault().is_some() {
             return Ok(true);
@@ -187,10 +234,14 @@ fn next_hit(world: &RefCell<World>) -> Option<Hit> {
 }
 
 /// A whole iteration that no callback interrupts.
-fn iterate_alone(world: &RefCell<World>, hits: &mut Vec<Hit>) {
+fn iterate_alone(world: &RefCell<World>, hits: &mut Vec<Hit>, tell: &mut impl FnMut(&World, Moment)) {
     let mut world = world.borrow_mut();
     world.begin();
-    hits.extend(std::iter::from_fn(|| world.treat_next()));
+    tell(&world, Moment::Begun);
+    while let Some(hit) = world.treat_next() {
+        tell(&world, Moment::Exchanged(&hit));
+        hits.push(hit);
+    }
     world.finish();
 }
 

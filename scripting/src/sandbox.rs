@@ -3,22 +3,18 @@
 //! No clock, no sleep, no `eval`, no file but those of the [`Library`](crate::library::Library); a limit on
 //! operations, depths and sizes, the same on every machine; and, last, a stop on wall-clock time.
 
-use std::cell::RefCell;
-use std::rc::Rc;
-use std::time::Duration;
-
 use rhai::packages::{
     BasicArrayPackage, BasicFnPackage, BasicIteratorPackage, BasicMapPackage, BasicStringPackage, MoreStringPackage,
     Package,
 };
 use rhai::{AST, Dynamic, Engine, EvalAltResult, LexError, ParseError, ParseErrorType, Scope, exported_module};
 
-use crate::clock::Clock;
+use crate::bare_names;
+use crate::clock::{Clock, Stopped};
 use crate::guard;
 use crate::modules::Resolver;
 use crate::options::Output;
 use crate::repairs;
-use crate::session::{Session, SessionTag};
 use crate::source;
 use crate::words;
 
@@ -55,18 +51,15 @@ pub(crate) fn why_withheld(name: &str) -> Option<&'static str> {
     WITHHELD.iter().find(|(withheld, _)| *withheld == name).map(|(_, why)| *why)
 }
 
-/// An engine for one load of a script.
-pub(crate) fn engine(session: &Rc<RefCell<Session>>, resolver: Resolver, clock: &Clock, output: &Output) -> Engine {
+/// An engine for a script. Words find their session by the tag of whatever runs.
+pub(crate) fn engine(resolver: Resolver, clock: &Clock, output: &Output) -> Engine {
     let mut engine = bare_engine();
-    engine.set_default_tag(Dynamic::from(SessionTag(session.clone())));
     engine.set_module_resolver(resolver);
     let (print, debug) = (output.clone(), output.clone());
     engine.on_print(move |text| print.write(text));
     engine.on_debug(move |text, _, position| debug.write(&format!("line {}: {text}", position.line().unwrap_or(0))));
     let clock = clock.clone();
-    engine.on_progress(move |operations| {
-        clock.has_run_out(operations).then(|| Dynamic::from(OutOfTime { given: clock.limit() }))
-    });
+    engine.on_progress(move |operations| clock.look(operations).map(Dynamic::from));
     engine
 }
 
@@ -83,6 +76,7 @@ pub(crate) fn bare_engine() -> Engine {
     engine.register_global_module(exported_module!(repairs::module).into());
     words::register(&mut engine);
     guard::watch_variables(&mut engine);
+    bare_names::let_settings_stand_bare(&mut engine);
     engine
         .disable_symbol("eval")
         // `f = f.curry(f)` would double what nobody weighs, and so would what a function makes of `this`.
@@ -122,14 +116,8 @@ pub(crate) fn compile(engine: &Engine, text: &str) -> Result<AST, ParseError> {
 /// What opens a comment over several lines.
 pub(crate) const OPEN_COMMENT: &str = "/*";
 
-/// Why a script was stopped.
-#[derive(Clone)]
-struct OutOfTime {
-    given: Duration,
-}
-
-/// How much time a script was given that ran out of it.
-pub(crate) fn time_given(error: &EvalAltResult) -> Option<Duration> {
+/// Why a script was stopped, if it was.
+pub(crate) fn why_stopped(error: &EvalAltResult) -> Option<Stopped> {
     let EvalAltResult::ErrorTerminated(token, _) = error else { return None };
-    token.read_lock::<OutOfTime>().map(|token| token.given)
+    token.read_lock::<Stopped>().map(|stopped| *stopped)
 }

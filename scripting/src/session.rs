@@ -4,14 +4,17 @@
 //! an index and nothing more, so `let car = mobile("car")` serves both phases.
 
 use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::path::PathBuf;
 use std::rc::Rc;
 
 use choque_engine::{BodyId, World};
-use rhai::{Dynamic, EvalAltResult, ImmutableString, NativeCallContext, Position};
+use rhai::{Dynamic, EvalAltResult, ImmutableString, Module, NativeCallContext, Position, Shared};
 
 use crate::draft::Draft;
 use crate::error::Complaint;
 use crate::expectation::{Pending, Reading};
+use crate::fit::{Aim, Variable};
 use crate::generator::Generator;
 use crate::library::Library;
 use crate::params::Params;
@@ -34,6 +37,11 @@ impl Site {
         Site { source: context.call_source().unwrap_or_default().into(), position: context.call_position() }
     }
 
+    /// Of what no script says.
+    pub(crate) fn nowhere() -> Site {
+        Site { source: ImmutableString::new(), position: Position::NONE }
+    }
+
     /// "line 3", or "line 3 of lib/cars.rhai" when seen from another file.
     pub(crate) fn seen_from(&self, other: &Site) -> String {
         let line = self.position.line().unwrap_or(1);
@@ -46,8 +54,16 @@ pub(crate) struct Session {
     pub(crate) phase: Phase,
     pub(crate) params: Params,
     pub(crate) generator: Generator,
+    /// The seed given from outside, which wins over that of the main part.
+    pub(crate) seed: Option<i64>,
+    /// The modules imported so far, by their one true path: each runs once, however often it is imported.
+    pub(crate) modules: BTreeMap<PathBuf, Shared<Module>>,
     /// What the script expects, in its order; taken out when the main part has ended.
     pub(crate) pending: Vec<Pending>,
+    /// What it wants of a run, likewise.
+    pub(crate) aims: Vec<Aim>,
+    /// What may vary for that.
+    pub(crate) variables: Vec<Variable>,
     /// What an expectation reads while it is being judged; `None` while none is.
     pub(crate) readings: Option<Vec<Reading>>,
     /// The room that readings had last time.
@@ -85,10 +101,20 @@ impl Running {
 
 impl Session {
     /// A session at the beginning of the main part.
-    pub(crate) fn new(params: Params, library: Rc<Library>) -> Self {
-        let phase = Phase::Building(Box::default());
-        let generator = Generator::new(0);
-        Session { phase, params, generator, pending: Vec::new(), readings: None, spare: Vec::new(), library }
+    pub(crate) fn new(params: Params, seed: Option<i64>, library: Rc<Library>) -> Self {
+        Session {
+            phase: Phase::Building(Box::default()),
+            params,
+            generator: Generator::new(seed.unwrap_or(0)),
+            seed,
+            modules: BTreeMap::new(),
+            pending: Vec::new(),
+            aims: Vec::new(),
+            variables: Vec::new(),
+            readings: None,
+            spare: Vec::new(),
+            library,
+        }
     }
 
     /// The scene being built, for a word that builds.
@@ -110,10 +136,10 @@ impl Session {
         }
     }
 
-    /// The world, for a word that changes it: an expectation only looks.
+    /// The world, for a word that changes it: an expectation or a target only looks.
     pub(crate) fn changing(&self) -> Result<&Running, Complaint> {
         if self.readings.is_some() {
-            return Err(Complaint::new("an expectation only looks: it must not change the world")
+            return Err(Complaint::new("an expectation or a target only looks: it must not change the world")
                 .hint("change it in `fn on_step(world)`"));
         }
         self.running()
@@ -160,6 +186,11 @@ impl Session {
 /// The tag by which words find their session.
 #[derive(Clone)]
 pub(crate) struct SessionTag(pub(crate) Rc<RefCell<Session>>);
+
+/// The session that a tag leads to.
+pub(crate) fn of(tag: &Dynamic) -> Option<Rc<RefCell<Session>>> {
+    tag.read_lock::<SessionTag>().map(|tag| tag.0.clone())
+}
 
 /// Has a word work on the session; its complaint becomes a script error at the place of the call.
 pub(crate) fn with<T>(

@@ -15,7 +15,11 @@
 //! The tests understand the flags of Rust's own (a filter, `--list`, `--exact`, `--test-threads` …), so `cargo test`,
 //! `cargo nextest run` and `cargo insta test --review` all work; environment variables of insta mean what they always
 //! mean, and where `CI` is set nothing is written.
+//!
+//! A test that fails says where the run and its snapshot part; a recording kept beside the snapshot (`run --record
+//! snapshots/….choque`) lets it name the stage. Where `CHOQUE_ARTIFACTS` names a folder, recordings and a page are left there.
 
+mod artifacts;
 mod difference;
 mod discover;
 mod pin;
@@ -31,7 +35,9 @@ use libtest_mimic::{Arguments, Failed, Trial};
 pub use crate::harness_main as main;
 pub use difference::in_words;
 pub use discover::{Case, cases, unreferenced};
+pub use pin::pinned;
 pub use record::record;
+pub(crate) use snapshot::rounded;
 pub use snapshot::{BodyRow, Checkpoint, ExtremeRow, MeetingRow, Snapshot, Totals};
 
 /// Asserts a snapshot of that name and body. The macro makes one in the test's own crate, because insta takes the

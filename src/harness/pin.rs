@@ -8,7 +8,7 @@ use std::sync::{Mutex, Once, PoisonError};
 
 use super::discover::Case;
 use super::snapshot::Snapshot;
-use super::{Assert, in_words};
+use super::{Assert, artifacts, in_words};
 use crate::output::numbers::{counted, duration};
 use crate::output::text::failure;
 
@@ -22,7 +22,10 @@ static TELLING: Mutex<()> = Mutex::new(());
 pub(super) fn pin(case: &Case, new: &Snapshot, assert: Assert) -> Result<(), String> {
     let body = new.to_text().map_err(|error| error.to_string())?;
     let broken = broken_expectations(new);
-    let moved = words(case, new);
+    let moved = words(case, new).map(|words| {
+        let parted = case.snapshot.is_file().then(|| artifacts::parted(case)).flatten();
+        parted.map_or(words.clone(), |parted| format!("{words}\n\n{parted}"))
+    });
     let _telling = TELLING.lock().unwrap_or_else(PoisonError::into_inner);
     for words in broken.iter().chain(&moved) {
         println!("\n{}: {words}", case.name());
@@ -74,7 +77,7 @@ fn words(case: &Case, new: &Snapshot) -> Option<String> {
     if fs::metadata(&case.snapshot).is_err() {
         return Some("it has no snapshot yet; look at the one below and accept it if it is right".to_owned());
     }
-    match read(&case.snapshot) {
+    match pinned(&case.snapshot) {
         Ok(old) => in_words(&old, new),
         Err(why) => Some(format!(
             "its snapshot cannot be read, so nothing can be said about what moved: it was edited by hand, or written by \
@@ -83,7 +86,11 @@ fn words(case: &Case, new: &Snapshot) -> Option<String> {
     }
 }
 
-fn read(path: &Path) -> Result<Snapshot, String> {
+/// What a snapshot's file holds.
+///
+/// # Errors
+/// Why it cannot be read.
+pub fn pinned(path: &Path) -> Result<Snapshot, String> {
     let file = insta::Snapshot::from_file(path).map_err(|error| error.to_string())?;
     let text = file.as_text().ok_or("it is no text")?.to_string();
     Snapshot::from_text(&text).map_err(|error| error.to_string())

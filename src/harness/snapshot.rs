@@ -160,7 +160,7 @@ impl Snapshot {
 
 /// Rounded to a millionth: a micrometre, microradian or micrometre a second. No −0.
 #[must_use]
-pub(super) fn rounded(number: f64) -> f64 {
+pub(crate) fn rounded(number: f64) -> f64 {
     const PARTS: f64 = 1e6;
     let scaled = (number * PARTS).round();
     let exact = scaled.abs() < 9e15; // above, a double has no millionths left to round

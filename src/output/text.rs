@@ -4,7 +4,7 @@ use choque_engine::scene::{Kind, Scene};
 use choque_engine::{BodyId, World};
 
 use crate::notable::{Notable, notable};
-use crate::outcome::{Judgement, Outcome};
+use crate::outcome::{Judgement, Measured, Outcome};
 use crate::output::ledger;
 use crate::output::numbers::{counted, duration, short, trimmed};
 use crate::output::table::{Side, table};
@@ -44,6 +44,7 @@ pub fn summary(told: &Told<'_>, verbose: bool) -> String {
     text += &format!("\n{}\n{}", length(world, outcome), bodies(scene, world));
     text += &format!("\n{}{}", totals(outcome, world), first_meetings(world, meetings, outcome.collisions));
     text += &expectations(&outcome.expectations);
+    text += &targets(&outcome.targets);
     if let Some(books) = outcome.ledger.as_ref().filter(|_| verbose) {
         text += &format!("\n{}", ledger::whole(books, world));
     }
@@ -153,6 +154,16 @@ pub fn expectations(judgements: &[Judgement]) -> String {
         } else {
             format!("{} {}\n", styled(BAD, "✗"), failure(judgement))
         };
+    }
+    text
+}
+
+/// A line per target, with what it came to.
+fn targets(targets: &[Measured]) -> String {
+    let mut text = if targets.is_empty() { String::new() } else { "\n".to_owned() };
+    for Measured { text: what, weight, residual } in targets {
+        let weight = if *weight == 1.0 { String::new() } else { format!(", weight {weight}") };
+        text += &format!("→ {what}: {}, to be 0{weight}\n", short(*residual));
     }
     text
 }

@@ -70,6 +70,11 @@ impl Range {
         Range { scale, low, high }
     }
 
+    /// From one number to another, both at the very ends; ticks where they fall.
+    pub(super) fn exactly(low: f64, high: f64) -> Self {
+        Range { scale: Scale::Linear, low, high: if high > low { high } else { low + 1.0 } }
+    }
+
     /// Where a number stands, the ends of the axis being 0 and 1.
     pub(super) fn place(&self, number: f64) -> Option<f64> {
         Some((position(self.scale, number)? - self.low) / (self.high - self.low))
@@ -85,7 +90,7 @@ impl Range {
     fn linear_ticks(&self) -> Vec<Tick> {
         let step = nice_step(self.high - self.low);
         let decimals = (-libm::floor(libm::log10(step) + 1e-9)).max(0.0) as usize;
-        let (first, last) = ((self.low / step).round() as i64, (self.high / step).round() as i64);
+        let (first, last) = ((self.low / step - 1e-9).ceil() as i64, (self.high / step + 1e-9).floor() as i64);
         let tick =
             |i: i64| Tick { value: step * i as f64, label: Some(signed(&format!("{:.decimals$}", step * i as f64))) };
         (first..=last).map(tick).collect()
@@ -118,7 +123,7 @@ fn position(scale: Scale, number: f64) -> Option<f64> {
 }
 
 /// 1, 2 or 5 times a power of ten, so that a length holds a handful.
-fn nice_step(length: f64) -> f64 {
+pub(crate) fn nice_step(length: f64) -> f64 {
     let raw = length / 5.0;
     let decade = libm::pow(10.0, libm::floor(libm::log10(raw)));
     let lead = raw / decade;

@@ -45,8 +45,8 @@ pub struct Point {
     pub label: Option<String>,
 }
 
-const WIDTH: f64 = 760.0;
-const HEIGHT: f64 = 520.0;
+pub(super) const WIDTH: f64 = 760.0;
+pub(super) const HEIGHT: f64 = 520.0;
 /// The plot's own rectangle: left and right …
 const SIDES: [f64; 2] = [78.0, WIDTH - 24.0];
 /// … and bottom; the top depends on the legend.
@@ -57,24 +57,16 @@ const PIECE: f64 = 34.0;
 
 const TITLE: Pen = Pen { size: 11.5, weight: 1.9, colour: INK };
 const SUBTITLE: Pen = Pen { size: 8.4, weight: 1.0, colour: FAINT };
-const NAME: Pen = Pen { size: 8.8, weight: 1.15, colour: INK };
-const TICK: Pen = Pen { size: 8.4, weight: 1.05, colour: INK };
+pub(super) const NAME: Pen = Pen { size: 8.8, weight: 1.15, colour: INK };
+pub(super) const TICK: Pen = Pen { size: 8.4, weight: 1.05, colour: INK };
 const LABEL: Pen = Pen { size: 7.2, weight: 0.9, colour: FAINT };
 
 impl Figure {
     /// The plot on a page.
     #[must_use]
     pub fn draw(&self) -> Drawing {
-        let mut drawing = Drawing::new(WIDTH, HEIGHT, &self.title);
-        drawing.fill(Path::rect([0.0, 0.0], [WIDTH, HEIGHT]), PAPER);
-        drawing.text([SIDES[0], 28.0], Anchor::Start, &self.title, TITLE);
-        let mut top = 36.0;
-        for line in wrapped(&self.subtitle, SUBTITLE.size, SIDES[1] - SIDES[0]) {
-            top += 14.0;
-            drawing.text([SIDES[0], top - 2.0], Anchor::Start, &line, SUBTITLE);
-        }
-        top += 6.0;
-        top = self.draw_legend(&mut drawing, top) + 8.0;
+        let (mut drawing, below) = headed(&self.title, &self.subtitle, SIDES);
+        let top = self.draw_legend(&mut drawing, below + 6.0) + 8.0;
         let plot = Plot::new(self, top);
         plot.draw_axes(&mut drawing, self);
         let mut room = Room::new([SIDES[0] + 2.0, top + 2.0], [SIDES[1] - 2.0, BOTTOM - 2.0]);
@@ -120,6 +112,19 @@ impl Figure {
             }
         }
     }
+}
+
+/// A page with a title and a subtitle between two places, and where the subtitle ends.
+pub(super) fn headed(title: &str, subtitle: &str, sides: [f64; 2]) -> (Drawing, f64) {
+    let mut drawing = Drawing::new(WIDTH, HEIGHT, title);
+    drawing.fill(Path::rect([0.0, 0.0], [WIDTH, HEIGHT]), PAPER);
+    drawing.text([sides[0], 28.0], Anchor::Start, title, TITLE);
+    let mut below = 36.0;
+    for line in wrapped(subtitle, SUBTITLE.size, sides[1] - sides[0]) {
+        below += 14.0;
+        drawing.text([sides[0], below - 2.0], Anchor::Start, &line, SUBTITLE);
+    }
+    (drawing, below)
 }
 
 /// A text in lines no wider than that, broken between words.

@@ -5,13 +5,13 @@ use super::lettering::width;
 
 /// A box along the page's sides.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Box2 {
+pub(crate) struct Box2 {
     low: At,
     high: At,
 }
 
 impl Box2 {
-    pub(super) fn around(centre: At, half: f64) -> Self {
+    pub(crate) fn around(centre: At, half: f64) -> Self {
         Box2 { low: [centre[0] - half, centre[1] - half], high: [centre[0] + half, centre[1] + half] }
     }
 
@@ -43,7 +43,7 @@ impl Box2 {
 }
 
 /// What is on the plot already.
-pub(super) struct Room {
+pub(crate) struct Room {
     low: At,
     high: At,
     taken: Vec<Box2>,
@@ -54,20 +54,20 @@ pub(super) struct Room {
 const OFFSET: f64 = 8.0;
 
 impl Room {
-    pub(super) fn new(low: At, high: At) -> Self {
+    pub(crate) fn new(low: At, high: At) -> Self {
         Room { low, high, taken: Vec::new(), lines: Vec::new() }
     }
 
-    pub(super) fn take(&mut self, taken: Box2) {
+    pub(crate) fn take(&mut self, taken: Box2) {
         self.taken.push(taken);
     }
 
-    pub(super) fn cross(&mut self, line: [At; 2]) {
+    pub(crate) fn cross(&mut self, line: [At; 2]) {
         self.lines.push(line);
     }
 
     /// The left end of a label beside a point, on its line; `None` when there is no room for it.
-    pub(super) fn find(&mut self, point: At, text: &str, size: f64) -> Option<At> {
+    pub(crate) fn find(&mut self, point: At, text: &str, size: f64) -> Option<At> {
         let (wide, high) = (width(text, size), size);
         let ways =
             [[1.0, 0.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 0.0], [-1.0, -1.0], [-1.0, 1.0], [0.0, -1.0], [0.0, 1.0]];

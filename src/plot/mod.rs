@@ -3,6 +3,7 @@
 //! | what | file |
 //! |---|---|
 //! | a plot with its curves | [`figure`] |
+//! | a quantity over two others, as colours | [`heat_map`] |
 //! | axes and ticks; labels where there is room | [`axis`], `labels` |
 //! | colours, dashes, markers | [`palette`] |
 //! | text, as strokes of a pen | [`lettering`], [`glyphs`] |
@@ -12,7 +13,8 @@ pub mod axis;
 pub mod drawing;
 pub mod figure;
 pub mod glyphs;
-mod labels;
+pub mod heat_map;
+pub(crate) mod labels;
 pub mod lettering;
 pub mod palette;
 pub mod raster;
@@ -21,4 +23,5 @@ pub mod svg;
 pub use axis::{Axis, Scale};
 pub use drawing::Drawing;
 pub use figure::{Figure, Point, Series};
+pub use heat_map::HeatMap;
 pub use palette::Look;

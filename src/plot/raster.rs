@@ -9,6 +9,12 @@ use super::palette::{Colour, PAPER};
 /// size.
 #[must_use]
 pub fn png(drawing: &Drawing, scale: f64) -> Option<Vec<u8>> {
+    pixels(drawing, scale)?.encode_png().ok()
+}
+
+/// The drawing as pixels. `None` when it is too large, or has no size.
+#[must_use]
+pub(crate) fn pixels(drawing: &Drawing, scale: f64) -> Option<Pixmap> {
     let size = |length: f64| libm::ceil(length * scale) as u32;
     let mut pixmap = Pixmap::new(size(drawing.width), size(drawing.height))?;
     pixmap.fill(paint(PAPER));
@@ -16,7 +22,7 @@ pub fn png(drawing: &Drawing, scale: f64) -> Option<Vec<u8>> {
     for shape in &drawing.shapes {
         draw(&mut pixmap, shape, transform);
     }
-    pixmap.encode_png().ok()
+    Some(pixmap)
 }
 
 fn draw(pixmap: &mut Pixmap, Shape { path, fill, stroke }: &Shape, transform: Transform) {

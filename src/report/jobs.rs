@@ -13,9 +13,20 @@ pub fn share<J: Sync, A: Send>(
     what: &'static str,
     work: impl Fn(&J) -> A + Sync,
 ) -> Vec<A> {
+    let progress = Mutex::new((Progress::of(jobs.len() as u64, what), 0));
+    spread(jobs, threads, |job| {
+        let answer = work(job);
+        let (bar, done) = &mut *locked(&progress);
+        *done += 1;
+        bar.reached(*done);
+        answer
+    })
+}
+
+/// Does every job, on that many threads.
+pub fn spread<J: Sync, A: Send>(jobs: &[J], threads: usize, work: impl Fn(&J) -> A + Sync) -> Vec<A> {
     let next = AtomicUsize::new(0);
     let answers = Mutex::new(Vec::with_capacity(jobs.len()));
-    let progress = Mutex::new((Progress::of(jobs.len() as u64, what), 0));
     thread::scope(|scope| {
         for _ in 0..threads.clamp(1, jobs.len().max(1)) {
             scope.spawn(|| {
@@ -24,9 +35,6 @@ pub fn share<J: Sync, A: Send>(
                 {
                     let answer = work(job);
                     locked(&answers).push((index, answer));
-                    let (bar, done) = &mut *locked(&progress);
-                    *done += 1;
-                    bar.reached(*done);
                 }
             });
         }
@@ -37,7 +45,7 @@ pub fn share<J: Sync, A: Send>(
 }
 
 /// A lock whose holder died is still a lock: the thread's own panic is passed on by the scope.
-fn locked<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
+pub(crate) fn locked<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
 }
 

@@ -197,3 +197,16 @@ fn a_package_without_scenarios_is_an_error() {
     let package = folder(&[]);
     assert!(!harness(package.path(), "", REFUSE).status.success());
 }
+
+#[test]
+fn a_failure_says_where_the_runs_part_and_leaves_them_where_it_is_told_to() {
+    let package = accepted(FALL);
+    write(&package.path().join("scenarios/things/fall.rhai"), &FALL.replace("velocity(1, 0)", "velocity(1.5, 0)"));
+    let left = package.path().join("left");
+    let folder = left.to_str().expect("a path of UTF-8");
+    let output = harness(package.path(), "", &[("INSTA_UPDATE", "no"), ("CHOQUE_ARTIFACTS", folder)]);
+    assert!(!output.status.success());
+    assert!(stdout(&output).contains("they differ from the start"), "{}", stdout(&output));
+    let recording = choque::recording::Recording::read(&left.join("things/fall.choque")).expect("the run");
+    assert_eq!(recording.about.scenario, "fall");
+}

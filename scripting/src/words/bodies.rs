@@ -84,7 +84,7 @@ pub(crate) mod module {
         let library = session::with(&context, |session| Ok(session.library.clone()))?;
         on_body(&context, body, |draft| {
             let found = library.find("model", &number::text("model: file", &file)?, "")?;
-            draft.add_part(body.index, Part::Mesh(extent("model", obj::read_vertices(&found)?)?))
+            draft.add_part(body.index, Part::Mesh(extent("model", obj::read_vertices(&library, &found)?)?))
         })
     }
 

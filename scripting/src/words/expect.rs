@@ -7,7 +7,7 @@ use super::{Closure, Text};
 use crate::error::Complaint;
 use crate::expectation::{Pending, When};
 use crate::number;
-use crate::session::{self, RhaiResultOf, Site};
+use crate::session::{self, RhaiResultOf, Session, Site};
 
 /// Characters the text of an expectation may have.
 const LONGEST_TEXT: usize = 500;
@@ -39,24 +39,37 @@ pub(crate) mod module {
 }
 
 fn declare(context: &NativeCallContext, text: &Dynamic, judge: &Dynamic, when: When) -> RhaiResultOf<()> {
-    let word = context.fn_name();
     session::with(context, |session| {
-        session.draft(word)?;
-        let text: ImmutableString = number::label(&format!("{word}: text"), text, LONGEST_TEXT)?;
-        let judge = judge.read_lock::<FnPtr>().map(|judge| judge.clone()).ok_or_else(|| {
-            number::must_be(&format!("{word} \"{text}\": the condition"), "a closure", judge)
-                .hint(format!("write {word}(\"{text}\", |world| …)"))
-        })?;
-        check_parameters(context, word, &text, &judge)?;
+        let pending = pending(context, session, text, judge, when)?;
         if session.pending.len() >= MOST_EXPECTATIONS {
             return Err(Complaint::new(format!("a script may have {MOST_EXPECTATIONS} expectations at most")));
         }
-        let mut surroundings = context.global_runtime_state().clone();
-        surroundings.level = 0;
-        surroundings.num_operations = Default::default();
-        session.pending.push(Pending { text, when, judge, surroundings, site: Site::of(context) });
+        session.pending.push(pending);
         Ok(())
     })
+}
+
+/// A closure to be asked about the world later, with all that it may call.
+pub(super) fn pending(
+    context: &NativeCallContext,
+    session: &mut Session,
+    text: &Dynamic,
+    judge: &Dynamic,
+    when: When,
+) -> Result<Pending, Complaint> {
+    let word = context.fn_name();
+    session.draft(word)?;
+    let text: ImmutableString = number::label(&format!("{word}: text"), text, LONGEST_TEXT)?;
+    let judge = judge.read_lock::<FnPtr>().map(|judge| judge.clone()).ok_or_else(|| {
+        let what = if when == When::Measured { "number" } else { "condition" };
+        number::must_be(&format!("{word} \"{text}\": the {what}"), "a closure", judge)
+            .hint(format!("write {word}(\"{text}\", |world| …)"))
+    })?;
+    check_parameters(context, word, &text, &judge)?;
+    let mut surroundings = context.global_runtime_state().clone();
+    surroundings.level = 0;
+    surroundings.num_operations = Default::default();
+    Ok(Pending { text, when, judge, surroundings, site: Site::of(context) })
 }
 
 /// A closure takes the world, after what it captures.

@@ -19,7 +19,7 @@ pub struct Word {
     pub signatures: Vec<String>,
     /// Its documentation, in Markdown; a paragraph for each way of writing it.
     pub docs: String,
-    /// `settings`, `bodies`, `expectations`, `callbacks`, `world`, `ledger`, `motion`, `random` or
+    /// `settings`, `bodies`, `expectations`, `fit`, `callbacks`, `world`, `ledger`, `motion`, `random` or
     /// `mathematics`.
     pub group: &'static str,
 }

@@ -9,6 +9,7 @@ use crate::handles::{Account, Body, Hit, Ledger, World};
 
 mod bodies;
 mod expect;
+mod fit;
 mod ledger;
 mod manual;
 mod math;
@@ -49,7 +50,7 @@ pub(crate) const CONSTANTS: [Constant; 3] = [
 ];
 
 /// The groups of words in the order of the manual.
-fn groups() -> [(&'static str, Module); 8] {
+fn groups() -> [(&'static str, Module); 9] {
     let mut mathematics = exported_module!(math::module);
     for constant in &CONSTANTS {
         mathematics.set_var(constant.name, constant.value);
@@ -58,6 +59,7 @@ fn groups() -> [(&'static str, Module); 8] {
         ("settings", exported_module!(settings::module)),
         ("bodies", exported_module!(bodies::module)),
         ("expectations", exported_module!(expect::module)),
+        ("fit", exported_module!(fit::module)),
         ("world", exported_module!(world::module)),
         ("ledger", exported_module!(ledger::module)),
         ("motion", exported_module!(motion::module)),

@@ -11,15 +11,16 @@ use crate::session::{self, Phase, RhaiResultOf};
 #[export_module]
 pub(crate) mod module {
     /// Starts the generator of random numbers anew from a whole number. Default: 0. The same seed gives the same
-    /// numbers on every machine (the generator is SplitMix64).
+    /// numbers on every machine (the generator is SplitMix64). `--seed` wins over what the main part says.
     #[rhai_fn(return_raw)]
     pub fn seed(context: NativeCallContext, n: Number) -> RhaiResultOf<()> {
         session::with(&context, |session| {
-            let seed = number::whole("seed", &n)?;
-            session.generator = Generator::new(seed);
+            let mut seed = number::whole("seed", &n)?;
             if let Phase::Building(draft) = &mut session.phase {
+                seed = session.seed.unwrap_or(seed);
                 draft.scene.settings.seed = seed;
             }
+            session.generator = Generator::new(seed);
             Ok(())
         })
     }

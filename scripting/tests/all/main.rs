@@ -5,13 +5,16 @@
 mod callbacks;
 mod expectations;
 mod files;
+mod fit;
 mod ledger;
 mod manual;
 mod mathematics;
 mod params;
+mod rewriting;
 mod sandbox;
 mod support;
 mod words;
+mod write_back;
 mod wrong_names;
 mod wrong_places;
 mod wrong_rules;

@@ -50,8 +50,18 @@ fn definitions_for_editors_hold_every_group() {
     let mut names: Vec<String> =
         files.iter().map(|file| file.file_name().unwrap().to_string_lossy().into_owned()).collect();
     names.sort();
-    let groups =
-        ["bodies", "callbacks", "expectations", "ledger", "mathematics", "motion", "random", "settings", "world"];
+    let groups = [
+        "bodies",
+        "callbacks",
+        "expectations",
+        "fit",
+        "ledger",
+        "mathematics",
+        "motion",
+        "random",
+        "settings",
+        "world",
+    ];
     assert_eq!(names, groups.map(|group| format!("{group}.d.rhai")));
     let all: String = files.iter().map(|file| fs::read_to_string(file).unwrap()).collect();
     for line in [

@@ -1,9 +1,11 @@
 //! Tunable numbers and overrides.
 
-use choque_engine::scene::{BroadPhaseChoice, Detection, ExchangeRule, MotionRule, Param};
-use choque_scripting::{Options, Overrides};
+use std::fs;
 
-use crate::support::{printed, run, scene, scene_with, set};
+use choque_engine::scene::{BroadPhaseChoice, Detection, ExchangeRule, MotionRule, Param};
+use choque_scripting::{Options, Overrides, Scenario, Step};
+
+use crate::support::{Folder, printed, run, scene, scene_with, set};
 
 const SCRIPT: &str = r#"
     let push = param("push", 8, 0, 30);
@@ -50,6 +52,7 @@ fn overrides_win_over_the_script() {
         steps: Some(3),
         time_step: Some(0.5),
         substeps: Some(8),
+        seed: Some(-4),
         exchange: Some(ExchangeRule::Impulse),
         detection: Some(Detection::Complete),
         motion: Some(MotionRule::Continuous),
@@ -60,5 +63,59 @@ fn overrides_win_over_the_script() {
     assert_eq!((settings.steps, settings.time_step, settings.mu_l), (3, 0.5, 0.5));
     assert_eq!((settings.exchange, settings.detection), (ExchangeRule::Impulse, Some(Detection::Complete)));
     assert_eq!((settings.motion, settings.broad_phase), (MotionRule::Continuous, BroadPhaseChoice::AllPairs));
-    assert_eq!(settings.substeps, Some(8));
+    assert_eq!((settings.substeps, settings.seed), (Some(8), -4));
+}
+
+#[test]
+fn a_seed_from_outside_wins_over_the_main_part_and_not_over_callbacks() {
+    let script = r#"
+        seed(3);
+        mobile("a").rect(1, 1).at(random(0, 1), 0);
+        fn on_step(world) { seed(5); world["a"].vx = random(0, 1); }
+    "#;
+    let folder = Folder::with(&[("scene.rhai", script), ("seven.rhai", &script.replace("seed(3)", "seed(7)"))]);
+    let run = |name, seed| {
+        let options = Options { overrides: Overrides { seed, ..Overrides::default() }, ..Options::default() };
+        folder.run(name, &options).unwrap().0.world().digest()
+    };
+    assert_eq!(run("scene.rhai", Some(7)), run("seven.rhai", None));
+    assert_ne!(run("scene.rhai", None), run("seven.rhai", None));
+}
+
+#[test]
+fn a_scenario_with_other_numbers_is_the_one_loaded_with_them() {
+    let folder = Folder::with(&[
+        (
+            "main.rhai",
+            r#"import "lib/cars" as cars; seed(1); steps(20); for i in 0..param("count", 2) { cars::car(i); }"#,
+        ),
+        (
+            "lib/cars.rhai",
+            r#"fn car(i) { mobile("car" + i).rect(1, 1).at(3 * i, 0).velocity(random(0, 1), param("push", 1)); }
+            always("not far", |world| world["car0"].x < 3);"#,
+        ),
+    ]);
+    let mut plain = folder.load("main.rhai", &Options::default()).unwrap();
+    fs::write(folder.path("plain.ron"), ron::to_string(plain.scene()).unwrap()).unwrap();
+    let digest = |scenario: &Scenario| {
+        let mut run = scenario.start().unwrap();
+        while run.step().unwrap() == Step::Going {}
+        assert!(run.conclude().unwrap().iter().all(|expectation| expectation.held));
+        (run.world().digest(), run.world().len())
+    };
+    for (count, seed) in [(5.0, None), (1.0, Some(9)), (2.0, None)] {
+        let mut options = set(&[("push", 0.5), ("count", count)]);
+        options.overrides.seed = seed;
+        let again = plain.with(&options.set, options.overrides).unwrap();
+        let loaded = folder.load("main.rhai", &options).unwrap();
+        assert_eq!(digest(&again), digest(&loaded), "{count} cars");
+        assert_eq!(digest(&again), digest(&loaded), "a second run");
+        plain = again;
+    }
+    let error = plain.with(&[("pusch".to_owned(), 1.0)], Overrides::default()).unwrap_err();
+    assert_eq!(error.hint.as_deref(), Some("did you mean `push`?"));
+    let scene = folder.load("plain.ron", &Options::default()).unwrap();
+    let settings = Overrides { steps: Some(3), ..Overrides::default() };
+    assert_eq!(scene.with(&[("mu_l".to_owned(), 0.25)], settings).unwrap().scene().settings.mu_l, 0.25);
+    assert_eq!(scene.with(&[], Overrides::default()).unwrap().scene().settings, scene.scene().settings);
 }

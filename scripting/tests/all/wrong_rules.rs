@@ -44,7 +44,7 @@ fn what_belongs_elsewhere_is_refused() {
       = help: while the scene is being built, say .at(x, z), .angle(rad), .velocity(x, z), .spin(rad_per_s)
     "#);
     assert_snapshot!(while_running("always(\"looks\", |world| { world[\"car\"].vx = 1; true });"), @r#"
-    error: an expectation only looks: it must not change the world
+    error: an expectation or a target only looks: it must not change the world
      --> scene.rhai:2:40
       |
     2 | always("looks", |world| { world["car"].vx = 1; true });

@@ -1,0 +1,95 @@
+//! What was said or modelled otherwise before anything moved.
+
+use choque_engine::scene::Settings;
+
+use crate::recording::Recording;
+
+/// Bodies made otherwise that are named.
+const MOST_BODIES: usize = 6;
+
+/// Lines that name what differs: version, build, sources, what was set, the plan.
+pub(super) fn premises(a: &Recording, b: &Recording) -> Vec<String> {
+    let (one, other) = (&a.about, &b.about);
+    let mut lines = Vec::new();
+    let note = |lines: &mut Vec<String>, what: &str, a: &str, b: &str| {
+        if a != b {
+            lines.push(format!("{what}: {a} against {b}"));
+        }
+    };
+    note(&mut lines, "choque", &one.choque, &other.choque);
+    note(&mut lines, "built by", &one.build.rustc, &other.build.rustc);
+    note(&mut lines, "built for", &one.build.target, &other.build.target);
+    note(&mut lines, "processor", &one.build.cpu, &other.build.cpu);
+    note(&mut lines, "scenario", &one.scenario, &other.scenario);
+    for (name, a, b) in settings(&one.settings, &other.settings) {
+        note(&mut lines, &name, &a, &b);
+    }
+    for param in &one.params {
+        if let Some(same) = other.params.iter().find(|same| same.name == param.name) {
+            note(&mut lines, &format!("param {}", param.name), &param.value.to_string(), &same.value.to_string());
+        }
+    }
+    let bodies = a.bodies.iter().filter_map(|one| Some((one, b.bodies.iter().find(|other| other.name == one.name)?)));
+    for (one, other) in bodies.filter(|(one, other)| one != other).take(MOST_BODIES) {
+        note(&mut lines, &format!("mass of {} [kg]", one.name), &one.mass.to_string(), &other.mass.to_string());
+        note(
+            &mut lines,
+            &format!("inertia of {} [kg·m²]", one.name),
+            &one.inertia.to_string(),
+            &other.inertia.to_string(),
+        );
+        if one.rects != other.rects {
+            lines.push(format!("{} is of another shape", one.name));
+        }
+    }
+    if one.scenario == other.scenario {
+        for source in &one.sources {
+            let same = |other: &&crate::recording::Source| last_part(&other.name) == last_part(&source.name);
+            if other.sources.iter().find(same).is_some_and(|other| other.text != source.text) {
+                lines.push(format!("the text of {} is another", last_part(&source.name)));
+            }
+        }
+    }
+    lines
+}
+
+/// Settings that differ, by name, as they would be written.
+fn settings(a: &Settings, b: &Settings) -> Vec<(String, String, String)> {
+    let (a, b) = (fields(a), fields(b));
+    let differ = a.into_iter().zip(b).filter(|(a, b)| a != b);
+    differ.map(|((name, a), (_, b))| (name, a, b)).collect()
+}
+
+fn fields(s: &Settings) -> Vec<(String, String)> {
+    let word = |option: Option<&'static str>| option.unwrap_or("as the exchange wants").to_owned();
+    let numbers = [
+        ("time_step", s.time_step),
+        ("mu_l", s.mu_l),
+        ("mu_a", s.mu_a),
+        ("epsilon", s.epsilon),
+        ("plane", s.plane),
+        ("restitution", s.restitution),
+        ("friction", s.friction),
+    ];
+    let rest = [
+        ("steps", s.steps.to_string()),
+        ("exchange", s.exchange.word().to_owned()),
+        ("detection", word(s.detection.map(|detection| detection.word()))),
+        ("motion", s.motion.word().to_owned()),
+        ("gravity", pair(s.gravity)),
+        ("drag", pair(s.drag)),
+        ("substeps", s.substeps.map_or_else(|| "as the plan picks".to_owned(), |n| n.to_string())),
+        ("sleeping", s.sleeping.to_string()),
+        ("seed", s.seed.to_string()),
+    ];
+    let numbers = numbers.into_iter().map(|(name, number)| (name.to_owned(), number.to_string()));
+    numbers.chain(rest.into_iter().map(|(name, text)| (name.to_owned(), text))).collect()
+}
+
+fn pair((x, z): (f64, f64)) -> String {
+    format!("({x}, {z})")
+}
+
+fn last_part(path: &str) -> &str {
+    path.rsplit(['/', '\\']).next().unwrap_or(path)
+}

@@ -1,0 +1,200 @@
+//! What is searched: from values to residuals, by running the scenario with them.
+
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+
+use choque_scripting::{Options, Output, Run, Scenario, Step, Target, Varied};
+
+use super::recorded::Recorded;
+use crate::Error;
+use crate::arguments::ScenarioArguments;
+use crate::progress::Progress;
+
+/// What stands for the cost of values that a run cannot be made with: worse than anything, and still a number.
+pub const BAD: f64 = 1e100;
+
+/// A scenario, what may vary in it and what it should come to. Threads share it; each loads the scenario for itself.
+#[derive(Debug)]
+pub struct Problem {
+    file: PathBuf,
+    arguments: ScenarioArguments,
+    /// What may vary, and between what.
+    pub varied: Vec<Varied>,
+    /// What runs are compared with.
+    pub recorded: Option<Recorded>,
+    tally: Mutex<Tally>,
+}
+
+/// How many runs were made, and who is told.
+#[derive(Debug)]
+struct Tally {
+    runs: u64,
+    progress: Option<Progress>,
+}
+
+/// How much of a run counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Horizon {
+    /// That many frames of the recording, without the targets: what happens later is not looked at yet.
+    Frames(usize),
+    /// All of it.
+    Whole,
+}
+
+/// What a run came to; every number should be 0.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Residuals {
+    /// As the script tells of them, in its order.
+    pub targets: Vec<Target>,
+    /// Of bodies from a recording, frame by frame.
+    pub poses: Vec<f64>,
+}
+
+impl Residuals {
+    /// Every number, targets with their weights.
+    #[must_use]
+    pub fn all(&self) -> Vec<f64> {
+        self.targets.iter().map(|target| target.weight * target.residual).chain(self.poses.iter().copied()).collect()
+    }
+
+    /// The root of the sum of their squares: of a recording the root of the mean square distance in body sizes, to which
+    /// targets are added as they are.
+    #[must_use]
+    pub fn cost(&self) -> f64 {
+        length(&self.all())
+    }
+
+    /// Of the recording alone.
+    #[must_use]
+    pub fn distance(&self) -> f64 {
+        length(&self.poses)
+    }
+}
+
+fn length(numbers: &[f64]) -> f64 {
+    numbers.iter().map(|number| number * number).sum::<f64>().sqrt()
+}
+
+impl Problem {
+    /// For a file and what may vary in it.
+    #[must_use]
+    pub fn new(file: &Path, arguments: &ScenarioArguments, varied: Vec<Varied>, recorded: Option<Recorded>) -> Self {
+        let tally = Mutex::new(Tally { runs: 0, progress: None });
+        Problem { file: file.to_owned(), arguments: arguments.clone(), varied, recorded, tally }
+    }
+
+    /// How many numbers vary.
+    #[must_use]
+    pub fn dimension(&self) -> usize {
+        self.varied.len()
+    }
+
+    /// The scenario's own values, as shares of their ranges.
+    #[must_use]
+    pub fn own(&self) -> Vec<f64> {
+        let share = |varied: &Varied| (varied.value - varied.range.0) / (varied.range.1 - varied.range.0);
+        self.varied.iter().map(|varied| share(varied).clamp(0.0, 1.0)).collect()
+    }
+
+    /// The values at a place, whose coordinates are shares of the ranges.
+    #[must_use]
+    pub fn values(&self, place: &[f64]) -> Vec<(String, f64)> {
+        let value = |(varied, share): (&Varied, &f64)| {
+            let (min, max) = varied.range;
+            (varied.name.clone(), (min + share * (max - min)).clamp(min, max))
+        };
+        self.varied.iter().zip(place).map(value).collect()
+    }
+
+    /// The options of a run with these values; what the script prints is not wanted a hundred times.
+    #[must_use]
+    pub fn options(&self, values: &[(String, f64)]) -> Options {
+        let mut options = Options { output: Output::to(|_| {}), ..self.arguments.options() };
+        options.set.extend(values.iter().cloned());
+        options
+    }
+
+    /// Runs the scenario with these values.
+    ///
+    /// # Errors
+    /// What is wrong with the scenario there; a target that is no finite number.
+    pub fn run(&self, values: &[(String, f64)], horizon: Horizon) -> Result<Residuals, Error> {
+        self.count();
+        let mut run = Scenario::load(&self.file, &self.options(values))?.start()?;
+        let steps = run.world().plan().steps;
+        let mut poses = Vec::new();
+        if let Some(recorded) = &self.recorded {
+            let frames = match horizon {
+                Horizon::Frames(frames) => frames.min(recorded.frames()),
+                Horizon::Whole => recorded.frames(),
+            };
+            for frame in 0..frames {
+                advance(&mut run, recorded.iteration(frame))?;
+                recorded.compare(frame, &run.world(), &mut poses);
+            }
+        }
+        if horizon != Horizon::Whole {
+            return Ok(Residuals { targets: Vec::new(), poses });
+        }
+        advance(&mut run, steps)?;
+        let targets = run.measure()?;
+        if let Some(target) = targets.iter().find(|target| !target.residual.is_finite()) {
+            return Err(Error::Call {
+                message: format!(
+                    "target \"{}\" came to {}, which is no number to bring to 0",
+                    target.text, target.residual
+                ),
+                hint: "look for a division by zero in it, or for a root of what may be negative".to_owned(),
+            });
+        }
+        Ok(Residuals { targets, poses })
+    }
+
+    /// The residuals at a place; `None` where no run can be made.
+    #[must_use]
+    pub fn residuals(&self, place: &[f64], horizon: Horizon) -> Option<Vec<f64>> {
+        self.run(&self.values(place), horizon).ok().map(|residuals| residuals.all())
+    }
+
+    /// The root of the sum of their squares; [`BAD`] where no run can be made.
+    #[must_use]
+    pub fn cost(&self, place: &[f64], horizon: Horizon) -> f64 {
+        self.residuals(place, horizon).map_or(BAD, |residuals| length(&residuals).min(BAD))
+    }
+
+    /// How many runs were made so far.
+    #[must_use]
+    pub fn runs(&self) -> u64 {
+        self.tally().runs
+    }
+
+    /// From now on someone is told how many of the runs that are expected have been made.
+    pub fn expect(&self, more: u64) {
+        let mut tally = self.tally();
+        tally.progress = Some(Progress::of(tally.runs + more, "runs"));
+    }
+
+    /// Takes the bar away.
+    pub fn hush(&self) {
+        self.tally().progress = None;
+    }
+
+    fn count(&self) {
+        let mut tally = self.tally();
+        tally.runs += 1;
+        let runs = tally.runs;
+        if let Some(progress) = &mut tally.progress {
+            progress.reached(runs);
+        }
+    }
+
+    fn tally(&self) -> std::sync::MutexGuard<'_, Tally> {
+        self.tally.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// Goes on to an iteration, or to where the script stops the run: there everything stays.
+fn advance(run: &mut Run, iteration: u64) -> Result<(), Error> {
+    while run.world().iteration() < iteration && run.step()? == Step::Going {}
+    Ok(())
+}

@@ -1,0 +1,315 @@
+//! Frames as bytes and back. A block holds several; what a frame is expected to be carries over from block to block.
+//!
+//! Three packs a block: what stands once in a frame; the bodies, column by column and body by body, so that what repeats
+//! stands together; what happened. Everything that is a number is written as its distance from what was expected.
+
+use choque_engine::PairKind;
+
+use super::foretold::{Course, ORDER};
+use super::frame::{Books, Command, Frame, Push, State, Strike, Totals, Touch};
+use super::pack::{Pack, Unpack};
+
+/// What writer and reader both know of the frames before.
+pub(super) struct Memory {
+    time_step: f64,
+    courses: Vec<Course>,
+    iteration: u64,
+    totals: [f64; 5],
+    books: Vec<f64>,
+    touches: Vec<Touch>,
+    states: Vec<State>,
+}
+
+const KINDS: [PairKind; 3] = [PairKind::Mobile, PairKind::FixedWithPhysics, PairKind::Fixed];
+
+impl Memory {
+    pub(super) fn new(time_step: f64, bodies: usize) -> Self {
+        Memory {
+            time_step,
+            courses: vec![Course::default(); bodies],
+            iteration: 0,
+            totals: [0.0; 5],
+            books: Vec::new(),
+            touches: Vec::new(),
+            states: vec![State::default(); bodies],
+        }
+    }
+
+    /// Where a body would be at the end of an iteration if it went on as it did.
+    fn ahead(&self, body: u32) -> State {
+        let state = self.states.get(body as usize).copied().unwrap_or_default();
+        let State { x, z, angle, vx, vz, spin } = state;
+        let dt = self.time_step;
+        State { x: x + vx * dt, z: z + vz * dt, angle: angle + spin * dt, ..state }
+    }
+}
+
+pub(super) fn write(frames: &[Frame], memory: &mut Memory) -> Vec<u8> {
+    let (mut once, mut bodies, mut events) = (Pack::default(), Pack::default(), Pack::default());
+    once.put(frames.len() as u64);
+    let first = memory.iteration;
+    for frame in frames {
+        write_once(frame, memory, &mut once);
+    }
+    write_states(frames, first, memory, &mut bodies);
+    for frame in frames {
+        write_events(frame, memory, &mut events);
+        memory.states.copy_from_slice(&frame.states);
+    }
+    let mut block = Vec::new();
+    [once, bodies, events].iter().for_each(|pack| pack.append_to(&mut block));
+    block
+}
+
+/// `None` when the bytes are not what [`write`] gives.
+pub(super) fn read(mut block: &[u8], memory: &mut Memory) -> Option<Vec<Frame>> {
+    let mut packs = [(); 3].map(|()| Unpack::take_from(&mut block));
+    let [Some(once), Some(bodies), Some(events)] = &mut packs else { return None };
+    let count = once.count()?;
+    let first = memory.iteration;
+    let mut frames = (0..count).map(|_| read_once(memory, once)).collect::<Option<Vec<Frame>>>()?;
+    read_states(&mut frames, first, memory, bodies)?;
+    for frame in &mut frames {
+        read_events(frame, memory, events)?;
+        memory.states.copy_from_slice(&frame.states);
+    }
+    (block.is_empty() && once.is_empty() && bodies.is_empty() && events.is_empty()).then_some(frames)
+}
+
+fn write_once(frame: &Frame, memory: &mut Memory, pack: &mut Pack) {
+    pack.put(frame.iteration.wrapping_sub(memory.iteration));
+    memory.iteration = frame.iteration;
+    pack.put_near(frame.iteration as f64 * memory.time_step, frame.time);
+    pack.put(frame.digest);
+    for (last, total) in memory.totals.iter_mut().zip(frame.totals.to_array()) {
+        pack.put_near(*last, total);
+        *last = total;
+    }
+    let numbers: Vec<f64> = frame.books.iter().flat_map(|books| books.booked.iter().flatten().copied()).collect();
+    pack.put(frame.books.as_ref().map_or(0, |books| books.booked.len() as u64 + 1));
+    if let Some(books) = &frame.books {
+        pack.put(books.relocations);
+        let numbers: Vec<f64> = numbers.into_iter().chain([books.relocated]).collect();
+        memory.books.resize(numbers.len(), 0.0);
+        memory.books.iter().zip(&numbers).for_each(|(last, number)| pack.put_near(*last, *number));
+        memory.books = numbers;
+    }
+}
+
+fn read_once(memory: &mut Memory, pack: &mut Unpack) -> Option<Frame> {
+    let iteration = memory.iteration.checked_add(pack.get()?)?;
+    memory.iteration = iteration;
+    let time = pack.get_near(iteration as f64 * memory.time_step)?;
+    let digest = pack.get()?;
+    for total in &mut memory.totals {
+        *total = pack.get_near(*total)?;
+    }
+    let totals = Totals::from_array(memory.totals);
+    let books = match pack.count()? {
+        0 => None,
+        causes => Some(read_books(causes - 1, memory, pack)?),
+    };
+    Some(Frame { iteration, time, digest, totals, books, ..Frame::default() })
+}
+
+fn read_books(causes: usize, memory: &mut Memory, pack: &mut Unpack) -> Option<Books> {
+    let relocations = pack.get()?;
+    memory.books.resize(4 * causes + 1, 0.0);
+    for number in &mut memory.books {
+        *number = pack.get_near(*number)?;
+    }
+    let (relocated, booked) = memory.books.split_last()?;
+    let (booked, _) = booked.as_chunks();
+    Some(Books { booked: booked.to_vec(), relocated: *relocated, relocations })
+}
+
+/// Column by column in the order of [`ORDER`]; `first` is the iteration of the frame before the first.
+fn write_states(frames: &[Frame], first: u64, memory: &mut Memory, pack: &mut Pack) {
+    for column in ORDER {
+        for body in 0..memory.courses.len() {
+            let numbers = frames.iter().map(|frame| (frame.iteration, frame.states[body].to_array()));
+            let mut before = (first, memory.states[body].to_array());
+            for now in numbers {
+                let course = &mut memory.courses[body].columns[column];
+                let number = now.1[column];
+                if column >= 3 {
+                    pack.put_near(course.velocity(), number);
+                    course.see_velocity(number);
+                } else {
+                    let mean = 0.5 * (before.1[column + 3] + now.1[column + 3]);
+                    let expected = course.place(column, mean, (now.0 - before.0) as f64 * memory.time_step);
+                    pack.put_near(expected.value, number);
+                    course.see_place(expected, number);
+                }
+                before = now;
+            }
+        }
+    }
+}
+
+fn read_states(frames: &mut [Frame], first: u64, memory: &mut Memory, pack: &mut Unpack) -> Option<()> {
+    let bodies = memory.courses.len();
+    // A number takes a byte at least: of bodies that are not there no room is made.
+    if !pack.has(bodies.checked_mul(frames.len())?.checked_mul(State::COUNT)?) {
+        return None;
+    }
+    frames.iter_mut().for_each(|frame| frame.states = vec![State::default(); bodies]);
+    for column in ORDER {
+        for body in 0..bodies {
+            let mut before = (first, memory.states[body].to_array());
+            for frame in &mut *frames {
+                let course = &mut memory.courses[body].columns[column];
+                let mut state = frame.states[body].to_array();
+                let number = if column >= 3 {
+                    let number = pack.get_near(course.velocity())?;
+                    course.see_velocity(number);
+                    number
+                } else {
+                    let mean = 0.5 * (before.1[column + 3] + state[column + 3]);
+                    let expected = course.place(column, mean, (frame.iteration - before.0) as f64 * memory.time_step);
+                    let number = pack.get_near(expected.value)?;
+                    course.see_place(expected, number);
+                    number
+                };
+                state[column] = number;
+                frame.states[body] = State::from_array(state);
+                before = (frame.iteration, state);
+            }
+        }
+    }
+    Some(())
+}
+
+fn write_events(frame: &Frame, memory: &mut Memory, pack: &mut Pack) {
+    pack.put(frame.hits.len() as u64);
+    for hit in &frame.hits {
+        pack.put(frame.iteration.wrapping_sub(hit.iteration));
+        pack.put_near(frame.time, hit.time);
+        let kind = KINDS.iter().position(|kind| *kind == hit.kind).unwrap_or(0);
+        [hit.a.into(), hit.b.into(), kind as u64].into_iter().for_each(|number| pack.put(number));
+        let [a, b] = [hit.a, hit.b].map(|body| of(frame, body));
+        put_numbers(pack, [a.x, a.z], hit.point);
+        put_numbers(pack, [0.0; 2], hit.normal);
+        pack.put_near(0.0, hit.depth);
+        put_state(pack, &a, &hit.after[0]);
+        put_state(pack, &b, &hit.after[1]);
+    }
+    pack.put(frame.commands.len() as u64);
+    for command in &frame.commands {
+        pack.put(frame.iteration.wrapping_sub(command.iteration));
+        [command.exchanges, command.body.into()].into_iter().for_each(|number| pack.put(number));
+        put_state(pack, &of(frame, command.body), &command.after);
+    }
+    pack.put(frame.pushes.len() as u64);
+    for push in &frame.pushes {
+        pack.put(push.body.into());
+        put_numbers(pack, [0.0; 2], push.force);
+        pack.put_near(0.0, push.torque);
+    }
+    pack.put(frame.listed.len() as u64);
+    frame.listed.iter().flatten().for_each(|body| pack.put((*body).into()));
+    pack.put(frame.advanced.len() as u64);
+    for (body, state) in &frame.advanced {
+        pack.put((*body).into());
+        put_state(pack, &memory.ahead(*body), state);
+    }
+    write_touches(&frame.touches, memory, pack);
+}
+
+fn read_events(frame: &mut Frame, memory: &mut Memory, pack: &mut Unpack) -> Option<()> {
+    for _ in 0..pack.count()? {
+        let iteration = frame.iteration.checked_sub(pack.get()?)?;
+        let time = pack.get_near(frame.time)?;
+        let [a, b] = [body(memory, pack)?, body(memory, pack)?];
+        let kind = *KINDS.get(usize::try_from(pack.get()?).ok()?)?;
+        let states = [a, b].map(|body| of(frame, body));
+        let point = get_numbers(pack, [states[0].x, states[0].z])?;
+        let normal = get_numbers(pack, [0.0; 2])?;
+        let depth = pack.get_near(0.0)?;
+        let after = [get_state(pack, &states[0])?, get_state(pack, &states[1])?];
+        frame.hits.push(Strike { iteration, time, a, b, kind, point, normal, depth, after });
+    }
+    for _ in 0..pack.count()? {
+        let iteration = frame.iteration.checked_sub(pack.get()?)?;
+        let exchanges = pack.get()?;
+        let body = body(memory, pack)?;
+        let after = get_state(pack, &of(frame, body))?;
+        frame.commands.push(Command { iteration, exchanges, body, after });
+    }
+    for _ in 0..pack.count()? {
+        let body = body(memory, pack)?;
+        let force = get_numbers(pack, [0.0; 2])?;
+        frame.pushes.push(Push { body, force, torque: pack.get_near(0.0)? });
+    }
+    for _ in 0..pack.count()? {
+        frame.listed.push([body(memory, pack)?, body(memory, pack)?]);
+    }
+    for _ in 0..pack.count()? {
+        let body = body(memory, pack)?;
+        frame.advanced.push((body, get_state(pack, &memory.ahead(body))?));
+    }
+    frame.touches = read_touches(memory, pack)?;
+    Some(())
+}
+
+/// Each by what stood in its place the frame before.
+fn write_touches(touches: &[Touch], memory: &mut Memory, pack: &mut Pack) {
+    pack.put(touches.len() as u64);
+    for (i, touch) in touches.iter().enumerate() {
+        let last = memory.touches.get(i).copied().unwrap_or_default();
+        pack.put((touch.a ^ last.a).into());
+        pack.put((touch.b ^ last.b).into());
+        for (last, number) in last.numbers().into_iter().zip(touch.numbers()) {
+            pack.put((last.to_bits() ^ number.to_bits()).into());
+        }
+    }
+    memory.touches = touches.to_vec();
+}
+
+fn read_touches(memory: &mut Memory, pack: &mut Unpack) -> Option<Vec<Touch>> {
+    let mut touches = Vec::new();
+    for i in 0..pack.count()? {
+        let last = memory.touches.get(i).copied().unwrap_or_default();
+        let mut other = |last: u32| Some(last ^ u32::try_from(pack.get()?).ok()?);
+        let [a, b] = [other(last.a)?, other(last.b)?];
+        let mut numbers = last.numbers();
+        for number in &mut numbers {
+            *number = f32::from_bits(other(number.to_bits())?);
+        }
+        if [a, b].iter().any(|body| *body as usize >= memory.courses.len()) {
+            return None;
+        }
+        touches.push(Touch::from_numbers(a, b, numbers));
+    }
+    memory.touches.clone_from(&touches);
+    Some(touches)
+}
+
+/// A body that is there.
+fn body(memory: &Memory, pack: &mut Unpack) -> Option<u32> {
+    let body = u32::try_from(pack.get()?).ok()?;
+    ((body as usize) < memory.courses.len()).then_some(body)
+}
+
+fn of(frame: &Frame, body: u32) -> State {
+    frame.states.get(body as usize).copied().unwrap_or_default()
+}
+
+fn put_state(pack: &mut Pack, expected: &State, state: &State) {
+    put_numbers(pack, expected.to_array(), state.to_array());
+}
+
+fn get_state(pack: &mut Unpack, expected: &State) -> Option<State> {
+    get_numbers(pack, expected.to_array()).map(State::from_array)
+}
+
+fn put_numbers<const N: usize>(pack: &mut Pack, expected: [f64; N], numbers: [f64; N]) {
+    expected.into_iter().zip(numbers).for_each(|(expected, number)| pack.put_near(expected, number));
+}
+
+fn get_numbers<const N: usize>(pack: &mut Unpack, mut expected: [f64; N]) -> Option<[f64; N]> {
+    for number in &mut expected {
+        *number = pack.get_near(*number)?;
+    }
+    Some(expected)
+}
