@@ -51,6 +51,7 @@ use crate::world::World;
 use blocks::Blocks;
 use flying::Fliers;
 use pairs::Pairs;
+use part::Aside;
 use pulls::Pulls;
 use rest::Rest;
 use rows::Rows;
@@ -93,6 +94,7 @@ pub(crate) struct Contacts {
     blocks: Blocks,
     fliers: Fliers,
     rest: Rest,
+    aside: Aside,
     /// Rounds to be spent upon what stands still: fewer where they were in vain.
     patience: u32,
     /// Touches of bodies that touch no other: those left to impacts, and those that are not.
@@ -135,6 +137,7 @@ impl Contacts {
             blocks: Blocks::default(),
             fliers: Fliers::default(),
             rest: Rest::default(),
+            aside: Aside::default(),
             patience: solve::PATIENCE,
             pairs: Pairs::default(),
             lonely: Vec::new(),

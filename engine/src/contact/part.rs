@@ -26,6 +26,13 @@ const ROUNDS: u64 = 2_000_000_000;
 /// Displacements below this share of the deepest are not worth another round.
 const GOOD: f64 = 1e-3;
 
+/// What is laid aside while bodies are moved apart: what touches push, and how bodies move. Kept, so that a step allocates nothing.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Aside {
+    pushes: Vec<([Eight; 2], Eight)>,
+    motions: Vec<Motion>,
+}
+
 impl Contacts {
     /// Moves bodies apart that are deeper in each other than they may be by now; whether any were.
     pub(super) fn part_overlaps(&mut self, world: &mut World) -> bool {
@@ -49,26 +56,27 @@ impl Contacts {
     }
 
     fn part_to_the_end(&mut self, world: &mut World, excess: f64) {
-        let pushes: Vec<_> = self.blocks.blocks.iter().map(|block| (block.push, block.grip)).collect();
-        let motions: Vec<Motion> = self.rows.rows.iter().map(Row::motion).collect();
+        let Contacts { aside, blocks, rows, .. } = &mut *self;
+        aside.pushes.clear();
+        aside.pushes.extend(blocks.blocks.iter().map(|block| (block.push, block.grip)));
+        aside.motions.clear();
+        aside.motions.extend(rows.rows.iter().map(Row::motion));
         self.blocks.forget_pushes();
         self.rows.rows.iter_mut().for_each(|row| row.set_motion(Motion::default()));
         let (rows, blocks) = (&self.rows.rows[..], &mut self.blocks.blocks[..]);
         self.width.run(Ask { rows, blocks, band: self.band });
-        for sweep in 0..SWEEPS {
-            self.sweep(0, sweep % 2 == 1);
-        }
+        self.sweep_touches(world, SWEEPS);
         let most = (ROUNDS / (self.blocks.count as u64).pow(3)).min(u64::from(PATIENCE)) as u32;
-        world.work.touches_solved += (SWEEPS * self.blocks.count) as u64;
         self.settle_for(world, Effort { enough: (GOOD * excess).max(self.band), most });
-        for (row, motion) in self.rows.rows.iter_mut().zip(motions) {
+        let Contacts { aside, blocks, rows, .. } = self;
+        for (row, motion) in rows.rows.iter_mut().zip(&aside.motions) {
             for (place, way) in [(X, VX), (Z, VZ), (TURN, SPIN)] {
                 row.0[place] += row.0[way];
             }
-            row.set_motion(motion);
+            row.set_motion(*motion);
         }
-        for (block, (push, grip)) in self.blocks.blocks.iter_mut().zip(pushes) {
-            (block.push, block.grip) = (push, grip);
+        for (block, (push, grip)) in blocks.blocks.iter_mut().zip(&aside.pushes) {
+            (block.push, block.grip) = (*push, *grip);
         }
     }
 }

@@ -143,7 +143,7 @@ impl Contacts {
         settled
     }
 
-    fn sweep_touches(&mut self, world: &mut World, sweeps: usize) {
+    pub(super) fn sweep_touches(&mut self, world: &mut World, sweeps: usize) {
         for sweep in 0..sweeps {
             self.sweep(0, sweep % 2 == 1);
         }
@@ -157,7 +157,7 @@ impl Contacts {
     }
 
     /// A sweep over the blocks from that one on.
-    pub(super) fn sweep(&mut self, from: usize, back: bool) {
+    fn sweep(&mut self, from: usize, back: bool) {
         let parts = !self.parts_to_the_end();
         let (rows, blocks, band) = (&mut self.rows.rows[..], &mut self.blocks.blocks[from..], self.band);
         match (self.plan.friction, parts) {
