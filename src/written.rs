@@ -1,7 +1,7 @@
 //! Files that are written whole or not at all.
 
-use std::fs::Permissions;
-use std::io::{self, Read};
+use std::fs::{self, Permissions};
+use std::io::{self, Read, Write};
 use std::path::Path;
 
 use crate::Error;
@@ -63,6 +63,53 @@ pub fn replace(path: &Path, mut content: impl Read) -> Result<(), Error> {
     write().map_err(|source| Error::File { verb: "write", path: path.to_owned(), source })
 }
 
+/// Writes beside a file and puts it in its place in one go, if the file is still what it was; tells whether it was. A link
+/// stays a link, and the file keeps its permissions.
+///
+/// # Errors
+/// A file or folder that cannot be read or written.
+pub fn replace_unchanged(path: &Path, old: &str, new: &str) -> io::Result<bool> {
+    let path = path.canonicalize()?;
+    let permissions = fs::metadata(&path)?.permissions();
+    if permissions.readonly() {
+        return Err(io::Error::new(io::ErrorKind::PermissionDenied, "it is read-only"));
+    }
+    let mut beside = tempfile::Builder::new().prefix(".choque-").suffix(".tmp").tempfile_in(folder_of(&path))?;
+    beside.write_all(new.as_bytes())?;
+    beside.as_file().set_permissions(permissions)?;
+    beside.as_file().sync_all()?;
+    if fs::read(&path)? != old.as_bytes() {
+        return Ok(false);
+    }
+    match exchange(beside.path(), &path) {
+        // What was in its place is now beside it, and can still be looked at: someone may have saved in that very moment.
+        Ok(()) if fs::read(beside.path())? == old.as_bytes() => Ok(true),
+        Ok(()) => {
+            exchange(beside.path(), &path)?;
+            if fs::read(beside.path())? != new.as_bytes() {
+                exchange(beside.path(), &path)?; // saved once more: the last one stays
+            }
+            Ok(false)
+        }
+        Err(_) => {
+            beside.persist(&path).map_err(|error| error.error)?;
+            Ok(true)
+        }
+    }
+}
+
+/// Has two files change places, where the system can do that.
+#[cfg(target_os = "linux")]
+fn exchange(a: &Path, b: &Path) -> io::Result<()> {
+    use rustix::fs::{CWD, RenameFlags, renameat_with};
+    Ok(renameat_with(CWD, a, CWD, b, RenameFlags::EXCHANGE)?)
+}
+
+#[cfg(not(target_os = "linux"))]
+fn exchange(_: &Path, _: &Path) -> io::Result<()> {
+    Err(io::ErrorKind::Unsupported.into())
+}
+
 fn folder_of(path: &Path) -> &Path {
     path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."))
 }
@@ -77,4 +124,21 @@ fn usual_permissions() -> Option<Permissions> {
 #[cfg(not(unix))]
 fn usual_permissions() -> Option<Permissions> {
     None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_that_was_saved_meanwhile_stays() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("a.rhai");
+        fs::write(&path, "mine").expect("a file");
+        assert!(!replace_unchanged(&path, "old", "new").expect("it can be read"));
+        assert_eq!(fs::read_to_string(&path).expect("a text"), "mine");
+        assert!(replace_unchanged(&path, "mine", "new").expect("it can be written"));
+        assert_eq!(fs::read_to_string(&path).expect("a text"), "new");
+        assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 1, "nothing is left beside it");
+    }
 }

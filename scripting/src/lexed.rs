@@ -142,20 +142,25 @@ impl<'a> Lexed<'a> {
         Call { at: self.tokens[opening].1, number: self.number(number) }
     }
 
-    /// A plain number that is the whole of an argument.
+    /// A plain number that is the whole of an argument, in brackets or not.
     fn number(&self, token: usize) -> Option<Number> {
+        let brackets = (token..).take_while(|at| self.token(*at) == Some(&Token::LeftParen)).count();
+        let token = token + brackets;
         let start = self.tokens.get(token)?.1;
-        let is_sign = matches!(self.token(token), Some(Token::Minus | Token::UnaryMinus));
-        let digits = token + usize::from(is_sign);
-        let is_number = matches!(self.token(digits), Some(Token::IntegerConstant(_) | Token::FloatConstant(_)));
-        let is_all = matches!(self.token(digits + 1), Some(Token::Comma | Token::RightParen));
-        if !is_number || !is_all {
+        let is_minus = matches!(self.token(token), Some(Token::Minus | Token::UnaryMinus));
+        let digits = token + usize::from(is_minus);
+        let (value, is_whole) = match self.token(digits)? {
+            Token::IntegerConstant(whole) => (*whole as f64, true),
+            Token::FloatConstant(number) => (*number.0, false),
+            _ => return None,
+        };
+        let after = digits + 1 + brackets;
+        let is_closed = (digits + 1..after).all(|at| self.token(at) == Some(&Token::RightParen));
+        if !is_closed || !matches!(self.token(after), Some(Token::Comma | Token::RightParen)) {
             return None;
         }
-        let written = written_number(&self.text[start..])?;
-        let plain: String = written.chars().filter(|c| *c != '_' && !c.is_whitespace()).collect();
-        let is_whole = plain.chars().all(|c| c.is_ascii_digit() || c == '-');
-        Some(Number { range: start..start + written.len(), value: plain.parse().ok()?, is_whole })
+        let range = start..start + written_number(&self.text[start..])?.len();
+        Some(Number { range, value: if is_minus { -value } else { value }, is_whole })
     }
 
     fn token(&self, at: usize) -> Option<&Token> {
@@ -172,7 +177,7 @@ pub(crate) enum Head {
     MissingBefore(usize),
 }
 
-/// The decimal number that a text begins with, its sign included.
+/// The number that a text begins with, its sign included.
 fn written_number(text: &str) -> Option<&str> {
     let unsigned = text.strip_prefix('-').unwrap_or(text).trim_start();
     let mut before = ' ';
@@ -199,15 +204,16 @@ mod tests {
 
     #[test]
     fn a_number_is_found_as_it_is_written() {
-        for written in ["0.5", "1", "-3", "- 3", "1_000", "2.5e-3", "1e+2", "0."] {
+        for written in ["0.5", "1", "-3", "- 3", "1_000", "2.5e-3", "1e+2", "0.", "0x1e", "0b11", "0o17"] {
             assert_eq!(numbers(&format!("mu_l({written});"), "mu_l"), [Some(written.to_owned())], "{written}");
             assert_eq!(numbers(&format!("mu_l( /* ü */ {written} )"), "mu_l"), [Some(written.to_owned())], "{written}");
+            assert_eq!(numbers(&format!("mu_l((({written})))"), "mu_l"), [Some(written.to_owned())], "{written}");
         }
     }
 
     #[test]
     fn what_is_no_plain_number_is_none() {
-        for written in ["x", "1 - 0.5", "0x10", "1 / 3", "(1)", "\"1\"", "-x", "f(1)"] {
+        for written in ["x", "1 - 0.5", "1 / 3", "(1) + 2", "(1", "\"1\"", "-x", "f(1)", "0..5", "1.abs()", "--1"] {
             assert_eq!(numbers(&format!("mu_l({written});"), "mu_l"), [None], "{written}");
         }
     }

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | how is a scenario loaded and run? | [`Scenario`], [`Run`] |
 //! | which words are there? | [`words`] |
-//! | what may be tuned, and how does it get into the script? | [`Control`], [`rewrite`](rewrite()) |
+//! | what may be tuned, and how does it get into the script? | [`Control`], [`write_back`](write_back()) |
 //! | what may a script do? | `sandbox.rs`, `library.rs`, `modules.rs` |
 //! | what does a person see when something is wrong? | [`Diagnostic`]; `blame.rs` finds the place, `phrase.rs`, `calls.rs` and `syntax.rs` the words |
 //! | where do words keep what they build? | `session.rs`, `draft.rs`, `params.rs` |
@@ -48,7 +48,6 @@ mod params;
 mod phrase;
 mod plain;
 mod repairs;
-mod rewrite;
 mod run;
 mod sandbox;
 mod scenario;
@@ -66,7 +65,6 @@ pub use error::Diagnostic;
 pub use expectation::Expectation;
 pub use fit::{Target, Varied};
 pub use options::{Options, Output, Overrides, Reads, Stop};
-pub use rewrite::rewrite;
 pub use run::{Moment, Run, Step};
 pub use scenario::Scenario;
 pub use write_back::write_back;

@@ -104,6 +104,11 @@ impl Params {
         }
     }
 
+    /// Where a number is declared.
+    pub(crate) fn site_of(&self, name: &str) -> Option<&Site> {
+        self.declared.iter().find(|known| known.param.name == name).map(|known| &known.site)
+    }
+
     /// The first name of `--set` that nothing answers to.
     pub(crate) fn unanswered(&self) -> Option<Complaint> {
         let names = || self.declared.iter().map(|known| known.param.name.as_str()).chain(SETTINGS);

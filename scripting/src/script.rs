@@ -186,6 +186,14 @@ impl Script {
         self.blame().complaint_at(complaint, &self.blame().definition(callback))
     }
 
+    /// A complaint about a param, shown where it is declared.
+    pub(crate) fn complain_of_param(&self, name: &str, complaint: Complaint) -> Diagnostic {
+        match self.session.borrow().params.site_of(name) {
+            Some(site) => self.blame().complaint_at(complaint, site),
+            None => self.blame().complaint_of_script(complaint),
+        }
+    }
+
     /// A complaint about a body, shown where it was made; without one, about the script.
     pub(crate) fn complain_of_body(&self, scene: &Scene, body: Option<&str>, complaint: Complaint) -> Diagnostic {
         let index = body.and_then(|name| scene.bodies.iter().position(|body| body.name == name));

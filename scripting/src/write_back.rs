@@ -1,284 +1,222 @@
-//! Values put into a script's text: the numbers in `mu_l(…)` and `param("push", …)` change, and nothing else does.
+//! Tuned values put into a script: only the numbers of `mu_l(…)`, `param("name", …)` and so on are replaced, or a line is
+//! added to the settings; everything else stays as it is, comments and layout included.
 //!
-//! The places come from Rhai's own parser, so a comment or a string that looks like a call is none. What was written is
-//! read back before it is handed out: a value that something else in the script overrules is refused, not lost.
+//! Where a number cannot be found without doubt nothing is changed. What comes out has been run: it makes the very scene
+//! that the old script makes with the values given from outside.
 
 use std::path::Path;
 
-use rhai::{AST, ASTNode, Engine, Expr, FnCallExpr, OptimizationLevel, Position, Stmt, Token};
+use choque_engine::Scene;
 
-use crate::error::Diagnostic;
+use crate::error::{Complaint, Diagnostic};
+use crate::lexed::{Call, Head, Lexed};
 use crate::options::{Options, Output};
 use crate::params::{SETTINGS, setting};
 use crate::sandbox;
 use crate::script::Script;
 
-/// Words whose calls stand at the top of a script; a setting it lacks is put after the last of them.
-const HEAD: [&str; 10] =
-    ["title", "time_step", "steps", "mu_l", "mu_a", "epsilon", "restitution", "friction", "exchange", "motion"];
+/// Words that stand at the head of a script.
+const HEAD: [&str; 18] = [
+    "title",
+    "time_step",
+    "steps",
+    "mu_l",
+    "mu_a",
+    "epsilon",
+    "plane",
+    "exchange",
+    "detection",
+    "motion",
+    "substeps",
+    "sleeping",
+    "broad_phase",
+    "restitution",
+    "friction",
+    "gravity",
+    "drag",
+    "seed",
+];
 
-/// A script's text with other values in it: of a `param`, or of `mu_l`, `mu_a`, `epsilon`, `restitution`, `friction`.
-///
-/// Only number literals are replaced: comments, layout, line endings and a byte order mark stay. A setting that the
-/// script does not make gets a line of its own, after the settings it does make. A whole number stays one where it can.
+/// The text of a script with these values in it: of params, and of the settings that `--set` reaches. Of a name given twice
+/// the last value counts. Line endings and a byte order mark stay; a whole number stays one where it can.
 ///
 /// # Errors
-/// A value whose number cannot be told for certain: an expression in its place, several calls, none, a call in an import,
-/// or a script that then has another value all the same. The text is not changed in part: all values have a place, or none.
+/// A script that does not run with them; a number that is computed, stands in another file, or stands nowhere or in
+/// several places, shown there; a script that would make another scene. All values have a place, or none is written.
 pub fn write_back(file: &Path, text: &str, values: &[(String, f64)], options: &Options) -> Result<String, Diagnostic> {
-    let (mark, body) = match text.strip_prefix('\u{feff}') {
-        Some(body) => ("\u{feff}", body),
-        None => ("", text),
+    const BYTE_ORDER_MARK: char = '\u{feff}';
+    let body = text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text);
+    let mark = &text[..text.len() - body.len()];
+    let untuned = quiet(options, values);
+    let mut tuned = untuned.clone();
+    tuned.set.extend_from_slice(values);
+    let (script, wanted) = Script::prepare(file, body, &tuned)?;
+    let engine = sandbox::bare_engine();
+    let Some(lexed) = Lexed::of(&engine, body) else {
+        return Err(Diagnostic::new("the script is too long for its numbers to be found").in_file(file));
     };
-    Script::prepare(file, body, &quiet(options, values))?; // a script that is wrong already says so in its own words
-    let written = Text::parse(file, body)?.with(values)?;
-    check(file, body, &written, values, options)?;
-    Ok(format!("{mark}{written}"))
+    let page = Page { file, text: body, lexed: &lexed, script: &script };
+    let values: Vec<(&str, f64)> = last_of_each(values).collect();
+    let new = page.with(&values)?;
+    match Script::prepare(file, &new, &untuned) {
+        Ok((_, scene)) => page.compare(&scene, &wanted, &values)?,
+        Err(error) => {
+            let imported = values.iter().find_map(|(name, value)| page.imported(name, *value));
+            return Err(imported.unwrap_or(error));
+        }
+    }
+    Ok(format!("{mark}{new}"))
 }
 
-/// A script as text and as what Rhai makes of it.
-struct Text<'a> {
+/// The same options without a word printed, and without what is set from outside of the names that are written.
+fn quiet(options: &Options, values: &[(String, f64)]) -> Options {
+    let mut options = Options { output: Output::to(|_| {}), ..options.clone() };
+    options.set.retain(|(name, _)| values.iter().all(|(written, _)| written != name));
+    options
+}
+
+/// Of a name given twice the last value counts.
+fn last_of_each(values: &[(String, f64)]) -> impl Iterator<Item = (&str, f64)> {
+    let is_last = |at: usize, name: &String| values[at + 1..].iter().all(|(later, _)| later != name);
+    let last = values.iter().enumerate().filter(move |(at, (name, _))| is_last(*at, name));
+    last.map(|(_, (name, value))| (name.as_str(), *value))
+}
+
+/// A script in which numbers are looked for.
+struct Page<'a> {
     file: &'a Path,
     text: &'a str,
-    engine: Engine,
-    ast: AST,
+    lexed: &'a Lexed<'a>,
+    /// The same, as it ran with the new values.
+    script: &'a Script,
 }
 
-/// Bytes to be replaced, and by what.
-struct Edit {
-    start: usize,
-    end: usize,
-    by: String,
-}
+/// A piece of the text, in bytes, and what takes its place.
+type Edit = (std::ops::Range<usize>, String);
 
-/// A call of a word.
-struct Call {
-    /// What it is handed; `None` when that is no literal.
-    number: Option<(f64, Position)>,
-    position: Position,
-}
-
-impl<'a> Text<'a> {
-    fn parse(file: &'a Path, text: &'a str) -> Result<Self, Diagnostic> {
-        let mut engine = sandbox::bare_engine();
-        // An expression must stay one, even where it could be computed beforehand.
-        engine.set_optimization_level(OptimizationLevel::None);
-        let ast = sandbox::compile(&engine, text).map_err(|error| Diagnostic::new(error.to_string()).in_file(file))?;
-        Ok(Text { file, text, engine, ast })
-    }
-
+impl Page<'_> {
     /// The text with all values in it.
-    fn with(&self, values: &[(String, f64)]) -> Result<String, Diagnostic> {
+    fn with(&self, values: &[(&str, f64)]) -> Result<String, Diagnostic> {
         let mut edits = Vec::new();
-        let mut lines = Vec::new();
+        let mut statements = Vec::new();
         for (name, value) in values {
-            let calls = self.calls(name);
-            if calls.is_empty() && SETTINGS.contains(&name.as_str()) {
-                lines.push(format!("{name}({});", literal(*value, false)));
+            let calls = calls(self.lexed, name);
+            if calls.is_empty() && is_setting(name) {
+                statements.push(format!("{name}({});", literal(*value, false)));
             } else {
                 self.replace(name, *value, &calls, &mut edits)?;
             }
         }
-        if !lines.is_empty() {
-            edits.push(self.insert(&lines));
+        if !statements.is_empty() {
+            edits.push(insertion(self.text, self.lexed, &statements));
         }
-        edits.sort_by_key(|edit| edit.start);
-        let mut text = self.text.to_owned();
-        for edit in edits.iter().rev() {
-            text.replace_range(edit.start..edit.end, &edit.by);
+        edits.sort_by_key(|(range, _)| range.start);
+        let mut new = self.text.to_owned();
+        for (range, replacement) in edits.into_iter().rev() {
+            new.replace_range(range, &replacement);
         }
-        Ok(text)
-    }
-
-    /// The calls that give a setting or a param its value.
-    fn calls(&self, name: &str) -> Vec<Call> {
-        let mut calls = Vec::new();
-        self.ast.walk(&mut |path: &[ASTNode]| {
-            let call = match path.last() {
-                Some(ASTNode::Expr(Expr::FnCall(call, at) | Expr::MethodCall(call, at))) => Some((call, at)),
-                Some(ASTNode::Stmt(Stmt::FnCall(call, at))) => Some((call, at)),
-                _ => None,
-            };
-            if let Some((call, position)) = call.filter(|(call, _)| call.namespace.is_empty()) {
-                let argument = argument_of(call, name);
-                calls.extend(argument.map(|argument| Call { number: number(argument), position: *position }));
-            }
-            true
-        });
-        calls
+        Ok(new)
     }
 
     /// A setting is made once; a param may be read again, with the same default everywhere.
     fn replace(&self, name: &str, value: f64, calls: &[Call], edits: &mut Vec<Edit>) -> Result<(), Diagnostic> {
-        let is_setting = SETTINGS.contains(&name);
-        let written = if is_setting { format!("{name}(…)") } else { format!("param(\"{name}\", …)") };
         let Some(first) = calls.first() else {
-            return Err(Diagnostic::new(format!("{written} does not stand in the script, so its value has no place"))
-                .in_file(self.file)
-                .with_hint(Some("write its name and its default in the script itself, as literals".to_owned())));
+            return Err(self.imported(name, value).unwrap_or_else(|| self.made_up(name, value)));
         };
-        if is_setting && calls.len() > 1 {
-            let lines: Vec<String> = calls.iter().filter_map(|call| Some(call.position.line()?.to_string())).collect();
+        if is_setting(name) && calls.len() > 1 {
+            let mut lines: Vec<String> = calls.iter().map(|call| self.lexed.place(call.at).0.to_string()).collect();
+            lines.dedup();
+            let (lines, times) = (lines.join(", "), calls.len());
             let message =
-                format!("{written} stands in the script {} times, so the value has no one place", calls.len());
-            return Err(self.complain(
-                first.position,
-                message,
-                &format!("lines {}: keep one of them", lines.join(", ")),
-            ));
+                format!("{name}(…) stands in the script {times} times (line {lines}): which should be {value}?");
+            return Err(self.shown(message, first).with_hint(Some("keep one of them".to_owned())));
         }
         for call in calls {
-            let place = call.number.and_then(|(known, position)| Some((known, self.literal_at(position, known)?)));
-            let Some((known, (start, end))) = place else {
-                let message = format!("{written} is handed an expression here, and only a number can be replaced");
-                return Err(self.complain(call.position, message, "write the number itself in its place"));
+            let Some(number) = &call.number else {
+                let written = written(name);
+                let message =
+                    format!("{written} is handed an expression here: there is no number for {value} to replace");
+                let hint = "write the number itself in its place, or change it by hand".to_owned();
+                return Err(self.shown(message, call).with_hint(Some(hint)));
             };
-            if known != value {
-                let is_whole = !self.text[start..end].contains(['.', 'e', 'E']);
-                edits.push(Edit { start, end, by: literal(value, is_whole) });
+            if number.value != value {
+                edits.push((number.range.clone(), literal(value, number.is_whole)));
             }
         }
         Ok(())
     }
 
-    /// New lines after the settings at the top of the script, or before its first statement.
-    fn insert(&self, lines: &[String]) -> Edit {
-        let ending = if self.text.contains("\r\n") { "\r\n" } else { "\n" };
-        let statements = self.ast.statements();
-        let head =
-            statements.iter().take_while(|statement| matches!(statement, Stmt::Import(..)) || is_head(statement));
-        let end = head.filter(|statement| is_head(statement)).last().and_then(|last| self.end_of(last.position()));
-        if let Some(end) = end {
-            let rest = self.text[end..].split('\n').next().unwrap_or("").trim_end_matches('\r');
-            // A comment that begins here and ends elsewhere is not to be broken into.
-            let is_last = rest.trim().is_empty() || rest.trim_start().starts_with("//");
-            return match is_last {
-                true => Edit::at(end + rest.len(), format!("{ending}{}", lines.join(ending))),
-                false => Edit::at(end, format!(" {}", lines.join(" "))),
-            };
+    /// Whether the new script makes the scene that was tried; if not, what is in the way.
+    fn compare(&self, scene: &Scene, wanted: &Scene, values: &[(&str, f64)]) -> Result<(), Diagnostic> {
+        if scene == wanted {
+            return Ok(());
         }
-        match statements.first().and_then(|first| self.offset(first.position())) {
-            Some(start) => Edit::at(start, format!("{}{ending}", lines.join(ending))),
-            None => Edit::at(self.text.len(), format!("{ending}{}{ending}", lines.join(ending))),
-        }
-    }
-
-    /// Where the statement that begins there ends, its semicolon included.
-    fn end_of(&self, position: Position) -> Option<usize> {
-        let texts = [self.text];
-        let (tokens, _control) = self.engine.lex(&texts);
-        let mut depth = 0_i32;
-        // After the end of the text the lexer says so for ever.
-        let mut tokens = tokens.take_while(|(token, _)| *token != Token::EOF).skip_while(|(_, at)| *at < position);
-        let (_, at) = tokens.find(|(token, _)| {
-            depth += match token {
-                Token::LeftParen | Token::LeftBrace => 1,
-                Token::RightParen | Token::RightBrace => -1,
-                _ => 0,
-            };
-            depth == 0 && *token == Token::SemiColon
-        })?;
-        Some(self.offset(at)? + 1)
-    }
-
-    /// The byte a position stands for.
-    fn offset(&self, position: Position) -> Option<usize> {
-        let (line, column) = (position.line()?, position.position()?);
-        let mut rows = self.text.split_inclusive('\n');
-        let before: usize = rows.by_ref().take(line - 1).map(str::len).sum();
-        let row = rows.next()?;
-        row.char_indices().nth(column.checked_sub(1)?).map(|(at, _)| before + at)
-    }
-
-    /// The bytes of the literal at a position, when it is that number.
-    fn literal_at(&self, position: Position, known: f64) -> Option<(usize, usize)> {
-        let start = self.offset(position)?;
-        let rest = &self.text[start..];
-        let unsigned = rest.strip_prefix('-').unwrap_or(rest).trim_start();
-        let length = literal_length(unsigned);
-        let sign = if rest.starts_with('-') { -1.0 } else { 1.0 };
-        let read = read_literal(&unsigned[..length])?;
-        (sign * read == known).then_some((start, start + rest.len() - unsigned.len() + length))
-    }
-
-    fn complain(&self, position: Position, message: String, hint: &str) -> Diagnostic {
-        let (line, column) = (position.line().unwrap_or(1), position.position().unwrap_or(1));
-        Diagnostic::new(message).at(self.file, self.text, line, column).with_hint(Some(hint.to_owned()))
-    }
-}
-
-impl Edit {
-    fn at(place: usize, by: String) -> Self {
-        Edit { start: place, end: place, by }
-    }
-}
-
-/// What a call hands over as the value of a name, when it is the call that does.
-fn argument_of<'a>(call: &'a FnCallExpr, name: &str) -> Option<&'a Expr> {
-    let is_param = |call: &FnCallExpr| {
-        call.name == "param" && matches!(call.args.first(), Some(Expr::StringConstant(text, _)) if text == name)
-    };
-    match call.name == name && SETTINGS.contains(&name) {
-        true => call.args.first().filter(|_| call.args.len() == 1),
-        false => call.args.get(1).filter(|_| is_param(call)),
-    }
-}
-
-fn number(expression: &Expr) -> Option<(f64, Position)> {
-    match expression {
-        Expr::IntegerConstant(whole, at) => Some((*whole as f64, *at)),
-        Expr::FloatConstant(number, at) => Some((**number, *at)),
-        _ => None,
-    }
-}
-
-fn is_head(statement: &Stmt) -> bool {
-    let call = match statement {
-        Stmt::FnCall(call, _) => call,
-        Stmt::Expr(expression) => match &**expression {
-            Expr::FnCall(call, _) => call,
-            _ => return false,
-        },
-        _ => return false,
-    };
-    call.namespace.is_empty() && HEAD.contains(&call.name.as_str())
-}
-
-/// How many bytes of a text belong to the number that it begins with.
-fn literal_length(text: &str) -> usize {
-    let bytes = text.as_bytes();
-    let is_decimal = !matches!(bytes, [b'0', b'x' | b'X' | b'o' | b'O' | b'b' | b'B', ..]);
-    let is_digit = |at: usize| bytes.get(at).is_some_and(u8::is_ascii_digit);
-    let mut at = 0;
-    while let Some(byte) = bytes.get(at) {
-        let next = bytes.get(at + 1).copied().unwrap_or(b' ');
-        at += match byte {
-            // `5.` is a number, `5.abs()` and `0..5` are none.
-            b'.' if is_decimal
-                && (next.is_ascii_digit() || !(next.is_ascii_alphanumeric() || b"._".contains(&next))) =>
-            {
-                1
+        for (name, value) in values {
+            let param = scene.params.iter().find(|param| param.name == *name).map(|param| param.value);
+            let found = setting(&scene.settings, name).or(param);
+            if found == Some(*value) {
+                continue;
             }
-            b'e' | b'E' if is_decimal && b"+-".contains(&next) && is_digit(at + 2) => 2,
-            byte if byte.is_ascii_alphanumeric() || *byte == b'_' => 1,
-            _ => break,
-        };
-    }
-    at
-}
-
-fn read_literal(text: &str) -> Option<f64> {
-    let plain = text.replace('_', "");
-    let radix = |prefix: &str| plain.to_ascii_lowercase().strip_prefix(prefix).map(str::to_owned);
-    for (prefix, base) in [("0x", 16), ("0o", 8), ("0b", 2)] {
-        if let Some(digits) = radix(prefix) {
-            return i64::from_str_radix(&digits, base).ok().map(|whole| whole as f64);
+            if let Some(imported) = self.imported(name, *value) {
+                return Err(imported);
+            }
+            let found = found.map_or("nothing".to_owned(), |found| found.to_string());
+            let message = format!("{name} would be {found} and not {value}: something else in the script sets it");
+            let hint = Some(format!("set it once, and under no condition: {}", written(name)));
+            let shown = match calls(self.lexed, name).first() {
+                Some(call) => self.shown(message, call),
+                None => Diagnostic::new(message).in_file(self.file),
+            };
+            return Err(shown.with_hint(hint));
         }
+        let list: Vec<String> = values.iter().map(|(name, value)| format!("{name} = {value}")).collect();
+        let message = format!("with {} written into it the script would make another scene", list.join(", "));
+        Err(Diagnostic::new(message).in_file(self.file).with_hint(Some("change it by hand".to_owned())))
     }
-    plain.parse().ok()
+
+    /// A value that an imported script gives is not changed from here: others import it too.
+    fn imported(&self, name: &str, value: f64) -> Option<Diagnostic> {
+        let engine = sandbox::bare_engine();
+        let own = self.file.display().to_string();
+        self.script.texts_read().into_iter().filter(|(other, _)| *other != own).find_map(|(other, text)| {
+            let lexed = Lexed::of(&engine, &text)?;
+            let (line, column) = lexed.place(calls(&lexed, name).first()?.at);
+            let message = format!(
+                "{name} gets its value in a file that other scenarios may import too: {value} is not written there"
+            );
+            let hint = Some("change it there by hand".to_owned());
+            Some(Diagnostic::new(message).at(other.as_ref(), &text, line, column).with_hint(hint))
+        })
+    }
+
+    /// A param whose name does not stand anywhere.
+    fn made_up(&self, name: &str, value: f64) -> Diagnostic {
+        let message = format!("the name \"{name}\" is made up here: there is no number for {value} to replace");
+        let hint = format!("write {} with its name and its default as they are", written(name));
+        self.script.complain_of_param(name, Complaint::new(message).hint(hint))
+    }
+
+    fn shown(&self, message: String, call: &Call) -> Diagnostic {
+        let (line, column) = self.lexed.place(call.at);
+        Diagnostic::new(message).at(self.file, self.text, line, column)
+    }
 }
 
-/// The shortest literal that reads back to a value; a whole one where a whole one stood, so that it can still count.
+fn is_setting(name: &str) -> bool {
+    SETTINGS.contains(&name)
+}
+
+/// The calls that give a setting or a param its value.
+fn calls(lexed: &Lexed, name: &str) -> Vec<Call> {
+    if is_setting(name) { lexed.calls(name) } else { lexed.param_calls(name) }
+}
+
+/// Such a call, in words.
+fn written(name: &str) -> String {
+    if is_setting(name) { format!("{name}(…)") } else { format!("param(\"{name}\", …)") }
+}
+
+/// The shortest text that reads back to a value; a whole one where a whole one stood, so that it can still count.
 fn literal(value: f64, is_whole: bool) -> String {
     const MOST_EXACT: f64 = 9_007_199_254_740_992.0;
     match is_whole && libm::trunc(value) == value && value.abs() <= MOST_EXACT {
@@ -287,32 +225,25 @@ fn literal(value: f64, is_whole: bool) -> String {
     }
 }
 
-/// Reads the new text as a run would, and looks whether every value is there.
-fn check(
-    file: &Path,
-    text: &str,
-    written: &str,
-    values: &[(String, f64)],
-    options: &Options,
-) -> Result<(), Diagnostic> {
-    let (_, scene) = Script::prepare(file, written, &quiet(options, values))?;
-    for (name, value) in values {
-        let param = scene.params.iter().find(|param| param.name == *name).map(|param| param.value);
-        let found = setting(&scene.settings, name).or(param);
-        if found != Some(*value) {
-            let found = found.map_or("nothing".to_owned(), |found| found.to_string());
-            let message =
-                format!("{name} would be {found} and not {value}: something else in the script, or an import, sets it");
-            let hint = "set it once, in the script itself, with a number".to_owned();
-            return Err(Diagnostic::new(message).at(file, text, 1, 1).with_hint(Some(hint)));
+/// New statements after the head of a script, on lines of their own wherever that tears nothing apart.
+fn insertion(text: &str, lexed: &Lexed, statements: &[String]) -> Edit {
+    let newline = if text.contains("\r\n") { "\r\n" } else { "\n" };
+    let (at, inserted) = match lexed.after_the_head(&HEAD) {
+        Head::EndsAt(end) => {
+            let rest = text[end..].split('\n').next().unwrap_or("").trim_end_matches('\r');
+            let row = rest.trim();
+            if row.is_empty() || row.starts_with("//") {
+                (end + rest.len(), statements.iter().map(|line| format!("{newline}{line}")).collect())
+            } else {
+                (end, statements.iter().map(|line| format!(" {line}")).collect())
+            }
         }
-    }
-    Ok(())
-}
-
-/// The same options without a word printed, and without what is set from outside of the names that are written.
-fn quiet(options: &Options, values: &[(String, f64)]) -> Options {
-    let mut options = Options { output: Output::to(|_| {}), ..options.clone() };
-    options.set.retain(|(name, _)| values.iter().all(|(written, _)| written != name));
-    options
+        Head::MissingBefore(start) => {
+            // At the end of a text without code a comment may lack its end of line.
+            let before = if start == text.len() && !text.is_empty() && !text.ends_with('\n') { newline } else { "" };
+            let lines: String = statements.iter().map(|line| format!("{line}{newline}")).collect();
+            (start, format!("{before}{lines}"))
+        }
+    };
+    (at..at, inserted)
 }

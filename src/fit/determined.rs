@@ -1,9 +1,8 @@
 //! How sharply a value is determined: how far it can be moved, the others following, before the cost grows.
 
 use super::matrix::{Square, eigen, normal};
-use super::problem::{BAD, Horizon, Problem};
+use super::problem::{BAD, Bench, Horizon, Problem};
 use super::refine::{Found, derivatives, refine};
-use crate::report::jobs::spread;
 
 /// A value that may be moved over more than this share of its range is not determined.
 pub const LOOSE: f64 = 0.5;
@@ -39,7 +38,7 @@ impl Determined {
 #[must_use]
 pub fn determine(problem: &Problem, found: &Found, tolerance: f64, jobs: usize) -> Vec<Determined> {
     let sides: Vec<(usize, f64)> = (0..problem.dimension()).flat_map(|i| [(i, -1.0), (i, 1.0)]).collect();
-    let ends = spread(&sides, jobs, |(axis, sign)| follow(problem, found, *axis, *sign, tolerance));
+    let ends = problem.spread(&sides, jobs, |bench, (axis, sign)| follow(bench, found, *axis, *sign, tolerance));
     let told = |(axis, ends): (usize, &[Vec<f64>])| {
         let others = (0..problem.dimension()).filter(|other| *other != axis);
         let along = others.map(|other| (other, ends[0][other], ends[1][other]));
@@ -53,7 +52,7 @@ pub fn determine(problem: &Problem, found: &Found, tolerance: f64, jobs: usize) 
 }
 
 /// The furthest place along a valley to one side, the others following where the cost would grow otherwise.
-fn follow(problem: &Problem, found: &Found, axis: usize, sign: f64, tolerance: f64) -> Vec<f64> {
+fn follow(bench: &Bench, found: &Found, axis: usize, sign: f64, tolerance: f64) -> Vec<f64> {
     let enough = found.cost + tolerance;
     let to_border = if sign < 0.0 { found.place[axis] } else { 1.0 - found.place[axis] };
     let (mut good, mut length) = (found.place.clone(), 0.0);
@@ -61,7 +60,7 @@ fn follow(problem: &Problem, found: &Found, axis: usize, sign: f64, tolerance: f
     let (mut bad, mut next) = (None, FIRST_MOVE.min(to_border));
     let mut halvings = 0;
     while next > length && halvings < HALVINGS {
-        match arrive(problem, &good, &direction, next - length, (axis, found.place[axis] + sign * next), enough) {
+        match arrive(bench, &good, &direction, next - length, (axis, found.place[axis] + sign * next), enough) {
             Some(place) => {
                 direction = place.iter().zip(&good).map(|(to, from)| (to - from) / (next - length)).collect();
                 (good, length) = (place, next);
@@ -79,7 +78,7 @@ fn follow(problem: &Problem, found: &Found, axis: usize, sign: f64, tolerance: f
 
 /// A place a move further on with a cost that is low enough, if there is one.
 fn arrive(
-    problem: &Problem,
+    bench: &Bench,
     from: &[f64],
     direction: &[f64],
     by: f64,
@@ -89,18 +88,18 @@ fn arrive(
     let mut place: Vec<f64> =
         from.iter().zip(direction).map(|(from, along)| (from + along * by).clamp(0.0, 1.0)).collect();
     place[axis] = share.clamp(0.0, 1.0);
-    let cost = problem.cost(&place, Horizon::Whole);
-    let found = refine(problem, Found { place, cost }, Horizon::Whole, Some(axis), enough, FOLLOWING);
+    let cost = bench.cost(&place, Horizon::Whole);
+    let found = refine(bench, Found { place, cost }, Horizon::Whole, Some(axis), enough, FOLLOWING);
     (found.cost <= enough).then_some(found.place)
 }
 
 /// How the values go together near a minimum, from −1 to 1: the correlations that the residuals' derivatives give. `None` where
 /// no run can be made beside it.
 #[must_use]
-pub fn correlations(problem: &Problem, place: &[f64]) -> Option<Square> {
+pub fn correlations(bench: &Bench, place: &[f64]) -> Option<Square> {
     /// What nothing depends on goes with nothing: it is held by that share of the strongest dependence.
     const HELD: f64 = 1e-14;
-    let axes = eigen(&normal(&derivatives(problem, place, Horizon::Whole, None)?));
+    let axes = eigen(&normal(&derivatives(bench, place, Horizon::Whole, None)?));
     let greatest = axes.first().map_or(0.0, |(value, _)| *value);
     if greatest <= 0.0 {
         return None;
@@ -118,18 +117,18 @@ pub fn correlations(problem: &Problem, place: &[f64]) -> Option<Square> {
 /// Moves every value that the residuals leave open back to what the scenario itself says, the others following: an answer is
 /// no reason to change what it does not depend on.
 #[must_use]
-pub fn settle(problem: &Problem, found: Found, tolerance: f64, open: &[bool]) -> Found {
-    let own = problem.own();
+pub fn settle(bench: &Bench, found: Found, tolerance: f64, open: &[bool]) -> Found {
+    let own = bench.problem.own();
     let mut settled = found;
     for axis in (0..own.len()).filter(|axis| open[*axis]) {
         let mut place = settled.place.clone();
         place[axis] = own[axis];
-        let cost = problem.cost(&place, Horizon::Whole);
+        let cost = bench.cost(&place, Horizon::Whole);
         if cost >= BAD {
             continue;
         }
         let most = settled.cost + 1e-3 * tolerance;
-        let moved = refine(problem, Found { place, cost }, Horizon::Whole, Some(axis), settled.cost, 3 * FOLLOWING);
+        let moved = refine(bench, Found { place, cost }, Horizon::Whole, Some(axis), settled.cost, 3 * FOLLOWING);
         if moved.cost <= most {
             settled = moved;
         }

@@ -97,9 +97,10 @@ pub fn fit(arguments: &FitArguments) -> Result<Verdict, Error> {
     }
     let scenario = Scenario::load(&arguments.file, &arguments.scenario.options())?;
     let problem = pose(arguments, &scenario)?;
-    if arguments.write {
+    let script = if arguments.write { Some(script(arguments)?) } else { None };
+    if let Some(text) = &script {
         // What has no place must be known before the search, not after it.
-        rewritten(arguments, &problem.values(&problem.own()))?;
+        write_back(&arguments.file, text, &problem.values(&problem.own()), &arguments.scenario.options())?;
     }
     let effort = Effort { starts: arguments.starts, seed: arguments.seed, jobs: arguments.jobs.unwrap_or_else(cores) };
     let solved = solve::solve(&problem, effort, arguments.tolerance)?;
@@ -111,8 +112,8 @@ pub fn fit(arguments: &FitArguments) -> Result<Verdict, Error> {
         Format::Text => tell(&told::text(&told)),
         Format::Json => answer(&told::json(&told)?)?,
     }
-    if arguments.write {
-        write(arguments, &told)?;
+    if let Some(text) = &script {
+        write(arguments, text, &told)?;
     }
     Ok(if told.met { Verdict::Holds } else { Verdict::ExpectationFailed })
 }
@@ -162,8 +163,8 @@ fn pose(arguments: &FitArguments, scenario: &Scenario) -> Result<Problem, Error>
     Ok(Problem::new(&arguments.file, &arguments.scenario, varied, recorded))
 }
 
-/// The script's text with values in it.
-fn rewritten(arguments: &FitArguments, values: &[(String, f64)]) -> Result<String, Error> {
+/// The text of the script that values are to be written into.
+fn script(arguments: &FitArguments) -> Result<String, Error> {
     let file = &arguments.file;
     if file.extension().is_none_or(|extension| extension != "rhai") {
         return Err(Error::Call {
@@ -171,17 +172,17 @@ fn rewritten(arguments: &FitArguments, values: &[(String, f64)]) -> Result<Strin
             hint: "--write puts values into .rhai scripts".to_owned(),
         });
     }
-    let text = fs::read_to_string(file).map_err(|source| unreadable(file, source))?;
-    Ok(write_back(file, &text, values, &arguments.scenario.options())?)
+    fs::read_to_string(file).map_err(|source| failed("read", file, source))
 }
 
-fn unreadable(file: &Path, source: std::io::Error) -> Error {
-    Error::File { verb: "read", path: file.to_owned(), source }
+fn failed(verb: &'static str, file: &Path, source: std::io::Error) -> Error {
+    Error::File { verb, path: file.to_owned(), source }
 }
 
-/// Puts what was found into the script, when it is worth that.
-fn write(arguments: &FitArguments, told: &Answer) -> Result<(), Error> {
-    let file = arguments.file.display();
+/// Puts what was found into the script, when it is worth that and the script is still what it was.
+fn write(arguments: &FitArguments, text: &str, told: &Answer) -> Result<(), Error> {
+    let path = &arguments.file;
+    let file = path.display();
     if !told.met {
         tell(&format!("{}\n", styled(FAINT, &format!("{file} stays as it is: the values do not meet what is wanted"))));
         return Ok(());
@@ -192,7 +193,13 @@ fn write(arguments: &FitArguments, told: &Answer) -> Result<(), Error> {
         tell(&format!("{}\n", styled(FAINT, &format!("{file} has these values already"))));
         return Ok(());
     }
-    written::replace(&arguments.file, rewritten(arguments, &values)?.as_bytes())?;
+    let new = write_back(path, text, &values, &arguments.scenario.options())?;
+    if !written::replace_unchanged(path, text, &new).map_err(|source| failed("write", path, source))? {
+        return Err(Error::Call {
+            message: format!("{file} has been changed while values were looked for: nothing was written"),
+            hint: "the values are those of the script as it was; fit it again".to_owned(),
+        });
+    }
     let names: Vec<&str> = values.iter().map(|(name, _)| name.as_str()).collect();
     tell(&format!("{}\n", styled(FAINT, &format!("{} written into {file}", names.join(", ")))));
     Ok(())

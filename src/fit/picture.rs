@@ -5,7 +5,6 @@ use super::problem::{BAD, Horizon, Problem};
 use super::refine::Found;
 use crate::output::numbers::rough;
 use crate::plot::{Axis, Figure, Look, Point, Series};
-use crate::report::jobs::spread;
 
 /// Points of a curve, evenly over the range.
 const POINTS: usize = 41;
@@ -27,10 +26,10 @@ pub fn figure(problem: &Problem, answer: &Answer, best: &Found, jobs: usize) -> 
     };
     let series = (0..problem.dimension()).map(|axis| {
         let places = shares(best.place[axis]);
-        let costs = spread(&places, jobs, |share| {
+        let costs = problem.spread(&places, jobs, |bench, share| {
             let mut place = best.place.clone();
             place[axis] = *share;
-            problem.cost(&place, Horizon::Whole)
+            bench.cost(&place, Horizon::Whole)
         });
         let points = places.iter().zip(costs).filter(|(_, cost)| *cost < BAD);
         let value = &answer.values[axis];

@@ -1,5 +1,6 @@
 //! What is searched: from values to residuals, by running the scenario with them.
 
+use std::cell::OnceCell;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
@@ -9,11 +10,12 @@ use super::recorded::Recorded;
 use crate::Error;
 use crate::arguments::ScenarioArguments;
 use crate::progress::Progress;
+use crate::report::jobs::spread_with;
 
 /// What stands for the cost of values that a run cannot be made with: worse than anything, and still a number.
 pub const BAD: f64 = 1e100;
 
-/// A scenario, what may vary in it and what it should come to. Threads share it; each loads the scenario for itself.
+/// A scenario, what may vary in it and what it should come to. Threads share it; each works at a [`Bench`] of its own.
 #[derive(Debug)]
 pub struct Problem {
     file: PathBuf,
@@ -106,60 +108,20 @@ impl Problem {
         self.varied.iter().zip(place).map(value).collect()
     }
 
-    /// The options of a run with these values; what the script prints is not wanted a hundred times.
+    /// A place to make runs at, for one thread.
     #[must_use]
-    pub fn options(&self, values: &[(String, f64)]) -> Options {
-        let mut options = Options { output: Output::to(|_| {}), ..self.arguments.options() };
-        options.set.extend(values.iter().cloned());
-        options
+    pub fn bench(&self) -> Bench<'_> {
+        Bench { problem: self, loaded: OnceCell::new() }
     }
 
-    /// Runs the scenario with these values.
-    ///
-    /// # Errors
-    /// What is wrong with the scenario there; a target that is no finite number.
-    pub fn run(&self, values: &[(String, f64)], horizon: Horizon) -> Result<Residuals, Error> {
-        self.count();
-        let mut run = Scenario::load(&self.file, &self.options(values))?.start()?;
-        let steps = run.world().plan().steps;
-        let mut poses = Vec::new();
-        if let Some(recorded) = &self.recorded {
-            let frames = match horizon {
-                Horizon::Frames(frames) => frames.min(recorded.frames()),
-                Horizon::Whole => recorded.frames(),
-            };
-            for frame in 0..frames {
-                advance(&mut run, recorded.iteration(frame))?;
-                recorded.compare(frame, &run.world(), &mut poses);
-            }
-        }
-        if horizon != Horizon::Whole {
-            return Ok(Residuals { targets: Vec::new(), poses });
-        }
-        advance(&mut run, steps)?;
-        let targets = run.measure()?;
-        if let Some(target) = targets.iter().find(|target| !target.residual.is_finite()) {
-            return Err(Error::Call {
-                message: format!(
-                    "target \"{}\" came to {}, which is no number to bring to 0",
-                    target.text, target.residual
-                ),
-                hint: "look for a division by zero in it, or for a root of what may be negative".to_owned(),
-            });
-        }
-        Ok(Residuals { targets, poses })
-    }
-
-    /// The residuals at a place; `None` where no run can be made.
-    #[must_use]
-    pub fn residuals(&self, place: &[f64], horizon: Horizon) -> Option<Vec<f64>> {
-        self.run(&self.values(place), horizon).ok().map(|residuals| residuals.all())
-    }
-
-    /// The root of the sum of their squares; [`BAD`] where no run can be made.
-    #[must_use]
-    pub fn cost(&self, place: &[f64], horizon: Horizon) -> f64 {
-        self.residuals(place, horizon).map_or(BAD, |residuals| length(&residuals).min(BAD))
+    /// Does every job, on that many threads, each at a bench of its own.
+    pub fn spread<J: Sync, A: Send>(
+        &self,
+        jobs: &[J],
+        threads: usize,
+        work: impl Fn(&Bench, &J) -> A + Sync,
+    ) -> Vec<A> {
+        spread_with(jobs, threads, || self.bench(), work)
     }
 
     /// How many runs were made so far.
@@ -190,6 +152,79 @@ impl Problem {
 
     fn tally(&self) -> std::sync::MutexGuard<'_, Tally> {
         self.tally.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// Where one thread makes runs of a problem: the scenario is read and compiled once, and only its main part runs again.
+#[derive(Debug)]
+pub struct Bench<'a> {
+    /// What is searched.
+    pub problem: &'a Problem,
+    loaded: OnceCell<Scenario>,
+}
+
+impl Bench<'_> {
+    /// The scenario with these values.
+    fn scenario(&self, values: &[(String, f64)]) -> Result<Scenario, Error> {
+        let Problem { file, arguments, .. } = self.problem;
+        // What the script prints is not wanted a hundred times.
+        let options = Options { output: Output::to(|_| {}), ..arguments.options() };
+        let known = match self.loaded.get() {
+            Some(known) => known,
+            None => {
+                let read = Scenario::load(file, &options)?;
+                self.loaded.get_or_init(|| read)
+            }
+        };
+        Ok(known.with(&[options.set.as_slice(), values].concat(), options.overrides)?)
+    }
+
+    /// Runs the scenario with these values.
+    ///
+    /// # Errors
+    /// What is wrong with the scenario there; a target that is no finite number.
+    pub fn run(&self, values: &[(String, f64)], horizon: Horizon) -> Result<Residuals, Error> {
+        self.problem.count();
+        let mut run = self.scenario(values)?.start()?;
+        let steps = run.world().plan().steps;
+        let mut poses = Vec::new();
+        if let Some(recorded) = &self.problem.recorded {
+            let frames = match horizon {
+                Horizon::Frames(frames) => frames.min(recorded.frames()),
+                Horizon::Whole => recorded.frames(),
+            };
+            for frame in 0..frames {
+                advance(&mut run, recorded.iteration(frame))?;
+                recorded.compare(frame, &run.world(), &mut poses);
+            }
+        }
+        if horizon != Horizon::Whole {
+            return Ok(Residuals { targets: Vec::new(), poses });
+        }
+        advance(&mut run, steps)?;
+        let targets = run.measure()?;
+        if let Some(target) = targets.iter().find(|target| !target.residual.is_finite()) {
+            return Err(Error::Call {
+                message: format!(
+                    "target \"{}\" came to {}, which is no number to bring to 0",
+                    target.text, target.residual
+                ),
+                hint: "look for a division by zero in it, or for a root of what may be negative".to_owned(),
+            });
+        }
+        Ok(Residuals { targets, poses })
+    }
+
+    /// The residuals at a place; `None` where no run can be made.
+    #[must_use]
+    pub fn residuals(&self, place: &[f64], horizon: Horizon) -> Option<Vec<f64>> {
+        self.run(&self.problem.values(place), horizon).ok().map(|residuals| residuals.all())
+    }
+
+    /// The root of the sum of their squares; [`BAD`] where no run can be made.
+    #[must_use]
+    pub fn cost(&self, place: &[f64], horizon: Horizon) -> f64 {
+        self.residuals(place, horizon).map_or(BAD, |residuals| length(&residuals).min(BAD))
     }
 }
 

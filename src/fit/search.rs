@@ -7,9 +7,8 @@
 use argmin::core::{CostFunction, Executor, State};
 use argmin::solver::neldermead::NelderMead;
 
-use super::problem::{BAD, Horizon, Problem};
+use super::problem::{BAD, Bench, Horizon, Problem};
 use super::refine::{Found, refine};
-use crate::report::jobs::spread;
 use crate::report::random::Random;
 
 /// How much is tried.
@@ -58,22 +57,18 @@ pub fn search(problem: &Problem, effort: Effort) -> Vec<Found> {
     let mut starts = effort.starts.max(1);
     for horizon in stages {
         let last = horizon == Horizon::Whole;
-        let mut starts_here: Vec<Found> =
-            spread(&kept, effort.jobs, |place| Found { place: place.clone(), cost: problem.cost(place, horizon) });
+        let mut starts_here = problem.spread(&kept, effort.jobs, |bench, place| at(bench, place, horizon));
         starts_here.extend(samples.iter().map(|sample| sample.at(horizon)));
         sort(&mut starts_here);
         starts_here.truncate(starts);
-        let mut found = spread(&starts_here, effort.jobs, |start| descend(problem, start, horizon));
+        let mut found = problem.spread(&starts_here, effort.jobs, |bench, start| descend(bench, start, horizon));
         sort(&mut found);
         if last {
             return found;
         }
         kept = found.into_iter().map(|found| found.place).collect();
         // What is right to the last digit already needs no more search.
-        let mut whole: Vec<Found> = spread(&kept, effort.jobs, |place| Found {
-            place: place.clone(),
-            cost: problem.cost(place, Horizon::Whole),
-        });
+        let mut whole = problem.spread(&kept, effort.jobs, |bench, place| at(bench, place, Horizon::Whole));
         sort(&mut whole);
         if whole.first().is_some_and(|best| best.cost <= ROUNDING) {
             return whole;
@@ -81,6 +76,10 @@ pub fn search(problem: &Problem, effort: Effort) -> Vec<Found> {
         starts = (starts * 2).div_ceil(3).max(2);
     }
     Vec::new() // there is always a last stage
+}
+
+fn at(bench: &Bench, place: &[f64], horizon: Horizon) -> Found {
+    Found { place: place.to_owned(), cost: bench.cost(place, horizon) }
 }
 
 /// By cost; of equal ones the earlier stays the earlier.
@@ -122,10 +121,10 @@ fn sample(problem: &Problem, effort: Effort) -> Vec<Sample> {
     }
     places.insert(0, problem.own());
     let frames = problem.recorded.as_ref().map_or(0, super::recorded::Recorded::frames);
-    spread(&places, effort.jobs, |place| {
+    problem.spread(&places, effort.jobs, |bench, place| {
         let square = |numbers: &[f64]| numbers.iter().map(|number| number * number).sum::<f64>();
         let bad = || Sample { place: place.clone(), frames: vec![BAD * BAD; frames], targets: BAD * BAD };
-        let Ok(residuals) = problem.run(&problem.values(place), Horizon::Whole) else { return bad() };
+        let Ok(residuals) = bench.run(&problem.values(place), Horizon::Whole) else { return bad() };
         let width = residuals.poses.len() / frames.max(1);
         let targets = residuals.targets.iter().map(|target| target.weight * target.residual).map(|r| r * r).sum();
         let frames = residuals.poses.chunks(width.max(1)).map(square).collect();
@@ -156,9 +155,9 @@ fn stages(problem: &Problem, samples: &[Sample]) -> Vec<Horizon> {
 }
 
 /// Follows a place down.
-fn descend(problem: &Problem, start: &Found, horizon: Horizon) -> Found {
+fn descend(bench: &Bench, start: &Found, horizon: Horizon) -> Found {
     let mut found = start.clone();
-    for axis in 0..problem.dimension() {
+    for axis in 0..bench.problem.dimension() {
         for step in 0..ALONG {
             if found.cost <= ROUNDING {
                 return found;
@@ -166,7 +165,7 @@ fn descend(problem: &Problem, start: &Found, horizon: Horizon) -> Found {
             let mut place = start.place.clone();
             place[..axis].copy_from_slice(&found.place[..axis]);
             place[axis] = (step as f64 + 0.5) / ALONG as f64;
-            let cost = problem.cost(&place, horizon);
+            let cost = bench.cost(&place, horizon);
             if cost < found.cost {
                 found = Found { place, cost };
             }
@@ -175,16 +174,16 @@ fn descend(problem: &Problem, start: &Found, horizon: Horizon) -> Found {
     if found.cost >= BAD {
         return found;
     }
-    let smooth = refine(problem, found.clone(), horizon, None, ROUNDING, LAST_STEPS / 3);
+    let smooth = refine(bench, found.clone(), horizon, None, ROUNDING, LAST_STEPS / 3);
     if smooth.cost <= ROUNDING {
         return smooth;
     }
-    let crossed = simplex(problem, &smooth, horizon);
-    refine(problem, crossed, horizon, None, ROUNDING, LAST_STEPS)
+    let crossed = simplex(bench, &smooth, horizon);
+    refine(bench, crossed, horizon, None, ROUNDING, LAST_STEPS)
 }
 
 struct Landscape<'a> {
-    problem: &'a Problem,
+    bench: &'a Bench<'a>,
     horizon: Horizon,
 }
 
@@ -193,21 +192,21 @@ impl CostFunction for Landscape<'_> {
     type Output = f64;
 
     fn cost(&self, place: &Vec<f64>) -> Result<f64, argmin::core::Error> {
-        Ok(self.problem.cost(&folded(place), self.horizon))
+        Ok(self.bench.cost(&folded(place), self.horizon))
     }
 }
 
 /// Nelder and Mead's simplex from a place.
-fn simplex(problem: &Problem, start: &Found, horizon: Horizon) -> Found {
+fn simplex(bench: &Bench, start: &Found, horizon: Horizon) -> Found {
     let corner = |axis: usize| {
         let mut corner = start.place.clone();
         corner[axis] += if corner[axis] < 0.5 { SIMPLEX_SIZE } else { -SIMPLEX_SIZE };
         corner
     };
-    let corners = std::iter::once(start.place.clone()).chain((0..problem.dimension()).map(corner)).collect();
-    let steps = SIMPLEX_STEPS * (problem.dimension() as u64 + 1);
+    let corners = std::iter::once(start.place.clone()).chain((0..bench.problem.dimension()).map(corner)).collect();
+    let steps = SIMPLEX_STEPS * (bench.problem.dimension() as u64 + 1);
     let solver = NelderMead::new(corners);
-    let run = Executor::new(Landscape { problem, horizon }, solver)
+    let run = Executor::new(Landscape { bench, horizon }, solver)
         .configure(|state| state.max_iters(steps).target_cost(ROUNDING))
         .timer(false)
         .run();

@@ -4,7 +4,7 @@ use choque_scripting::Scenario;
 
 use super::answer::{Along, Answer, Distance, Value};
 use super::determined::{Determined, correlations, determine, settle};
-use super::problem::{BAD, Horizon, Problem, Residuals};
+use super::problem::{BAD, Bench, Horizon, Problem, Residuals};
 use super::refine::{Found, refine};
 use super::search::{Effort, ROUNDING, most_runs, search};
 use crate::Error;
@@ -45,14 +45,15 @@ pub fn solve(problem: &Problem, effort: Effort, tolerance: f64) -> Result<Solved
         problem.hush();
         return Err(nowhere(problem));
     };
-    let mut best = refine(problem, best, Horizon::Whole, None, ROUNDING, LAST_STEPS);
+    let bench = problem.bench();
+    let mut best = refine(&bench, best, Horizon::Whole, None, ROUNDING, LAST_STEPS);
     let mut determined = determine(problem, &best, tolerance, effort.jobs);
     let open: Vec<bool> = determined.iter().map(Determined::is_loose).collect();
     if open.contains(&true) {
-        best = settle(problem, best, tolerance, &open);
+        best = settle(&bench, best, tolerance, &open);
         determined = determine(problem, &best, tolerance, effort.jobs);
     }
-    let values = rounded(problem, &best, tolerance);
+    let values = rounded(&bench, &best, tolerance);
     let others = others(&found, &best, &determined, tolerance);
     problem.hush();
     Ok(Solved { best, values, determined, others })
@@ -60,7 +61,7 @@ pub fn solve(problem: &Problem, effort: Effort, tolerance: f64) -> Result<Solved
 
 /// Why no run can be made: what is wrong with the scenario's own values, for it is wrong with all.
 fn nowhere(problem: &Problem) -> Error {
-    match problem.run(&problem.values(&problem.own()), Horizon::Whole) {
+    match problem.bench().run(&problem.values(&problem.own()), Horizon::Whole) {
         Err(error) => error,
         Ok(_) => Error::Call {
             message: "no run comes to numbers, whatever the values".to_owned(),
@@ -70,7 +71,8 @@ fn nowhere(problem: &Problem) -> Error {
 }
 
 /// Each value with as few digits as do no harm.
-fn rounded(problem: &Problem, best: &Found, tolerance: f64) -> Vec<(String, f64)> {
+fn rounded(bench: &Bench, best: &Found, tolerance: f64) -> Vec<(String, f64)> {
+    let Bench { problem, .. } = bench;
     let exact = problem.values(&best.place);
     let most = best.cost + FOR_ROUND_NUMBERS * tolerance;
     let round = |digits: i32| -> Vec<(String, f64)> {
@@ -83,9 +85,8 @@ fn rounded(problem: &Problem, best: &Found, tolerance: f64) -> Vec<(String, f64)
         };
         exact.iter().zip(&problem.varied).map(round).collect()
     };
-    let does_no_harm = |values: &Vec<(String, f64)>| {
-        problem.run(values, Horizon::Whole).is_ok_and(|residuals| residuals.cost() <= most)
-    };
+    let does_no_harm =
+        |values: &Vec<(String, f64)>| bench.run(values, Horizon::Whole).is_ok_and(|residuals| residuals.cost() <= most);
     (2..14).map(round).find(does_no_harm).unwrap_or_else(|| exact.clone())
 }
 
@@ -116,7 +117,8 @@ pub fn answer(
     effort: Effort,
     tolerance: f64,
 ) -> Result<Answer, Error> {
-    let residuals: Residuals = problem.run(&solved.values, Horizon::Whole)?;
+    let bench = problem.bench();
+    let residuals: Residuals = bench.run(&solved.values, Horizon::Whole)?;
     let met = residuals.distance() <= tolerance
         && residuals.targets.iter().all(|target| (target.weight * target.residual).abs() <= tolerance);
     let recording = problem.recorded.as_ref().map(|recorded| Distance {
@@ -131,7 +133,7 @@ pub fn answer(
         tolerance,
         residual: residuals.cost(),
         values: values(problem, solved),
-        correlations: correlations(problem, &solved.best.place).filter(|known| known.len() > 1),
+        correlations: correlations(&bench, &solved.best.place).filter(|known| known.len() > 1),
         targets: residuals.targets.into_iter().map(Measured::from).collect(),
         recording,
         alternatives: solved.others.iter().map(|other| numbers(problem, &other.place)).collect(),

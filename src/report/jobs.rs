@@ -25,15 +25,26 @@ pub fn share<J: Sync, A: Send>(
 
 /// Does every job, on that many threads.
 pub fn spread<J: Sync, A: Send>(jobs: &[J], threads: usize, work: impl Fn(&J) -> A + Sync) -> Vec<A> {
+    spread_with(jobs, threads, || (), |(), job| work(job))
+}
+
+/// Does every job, on that many threads, each with something of its own that is made once.
+pub fn spread_with<J: Sync, T, A: Send>(
+    jobs: &[J],
+    threads: usize,
+    own: impl Fn() -> T + Sync,
+    work: impl Fn(&T, &J) -> A + Sync,
+) -> Vec<A> {
     let next = AtomicUsize::new(0);
     let answers = Mutex::new(Vec::with_capacity(jobs.len()));
     thread::scope(|scope| {
         for _ in 0..threads.clamp(1, jobs.len().max(1)) {
             scope.spawn(|| {
+                let own = own();
                 while let Some((index, job)) =
                     Some(next.fetch_add(1, Ordering::Relaxed)).and_then(|i| Some((i, jobs.get(i)?)))
                 {
-                    let answer = work(job);
+                    let answer = work(&own, job);
                     locked(&answers).push((index, answer));
                 }
             });

@@ -2,14 +2,15 @@
 //! someone else has written meanwhile.
 
 use std::fs;
-use std::io::{self, Write};
+use std::io;
 use std::path::Path;
 
-use choque_scripting::{Options, rewrite};
+use choque_scripting::{Options, write_back};
 use serde::Serialize;
 use thiserror::Error;
 
 use super::files::digest;
+use crate::written;
 
 /// What was written.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -56,10 +57,11 @@ pub(super) fn save(path: &Path, run: &str, values: &[(String, f64)], options: &O
     if digest(text) != run {
         return Err(Refused::Changed);
     }
-    let new = rewrite(path, text, values, options).map_err(|error| Refused::Unclear(Box::new(error)))?;
+    let new = write_back(path, text, values, options).map_err(|error| Refused::Unclear(Box::new(error)))?;
     let saved = Saved { digest: digest(&new), lines: new_lines(text, &new) };
     if new != text {
-        replace_unchanged(path, &old, &format!("{mark}{new}"))?;
+        let is_written = written::replace_unchanged(path, &old, &format!("{mark}{new}"))?;
+        return if is_written { Ok(saved) } else { Err(Refused::Changed) };
     }
     Ok(saved)
 }
@@ -85,51 +87,6 @@ fn new_lines(old: &str, new: &str) -> Vec<Line> {
     lines
 }
 
-/// Writes beside the file and puts it in its place in one go, if the file is still what it was. A link stays a link, and the
-/// file keeps its permissions.
-fn replace_unchanged(path: &Path, old: &str, new: &str) -> Result<(), Refused> {
-    let path = path.canonicalize()?;
-    let permissions = fs::metadata(&path)?.permissions();
-    if permissions.readonly() {
-        return Err(io::Error::new(io::ErrorKind::PermissionDenied, "it is read-only").into());
-    }
-    let folder = path.parent().unwrap_or(Path::new("."));
-    let mut beside = tempfile::Builder::new().prefix(".choque-").suffix(".tmp").tempfile_in(folder)?;
-    beside.write_all(new.as_bytes())?;
-    beside.as_file().set_permissions(permissions)?;
-    beside.as_file().sync_all()?;
-    if fs::read(&path)? != old.as_bytes() {
-        return Err(Refused::Changed);
-    }
-    match exchange(beside.path(), &path) {
-        // What was in its place is now beside it, and can still be looked at: someone may have saved in that very moment.
-        Ok(()) if fs::read(beside.path())? == old.as_bytes() => Ok(()),
-        Ok(()) => {
-            exchange(beside.path(), &path)?;
-            if fs::read(beside.path())? != new.as_bytes() {
-                exchange(beside.path(), &path)?; // saved once more: the last one stays
-            }
-            Err(Refused::Changed)
-        }
-        Err(_) => {
-            beside.persist(&path).map_err(|error| error.error)?;
-            Ok(())
-        }
-    }
-}
-
-/// Has two files change places, where the system can do that.
-#[cfg(target_os = "linux")]
-fn exchange(a: &Path, b: &Path) -> io::Result<()> {
-    use rustix::fs::{CWD, RenameFlags, renameat_with};
-    Ok(renameat_with(CWD, a, CWD, b, RenameFlags::EXCHANGE)?)
-}
-
-#[cfg(not(target_os = "linux"))]
-fn exchange(_: &Path, _: &Path) -> io::Result<()> {
-    Err(io::ErrorKind::Unsupported.into())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -142,17 +99,5 @@ mod tests {
         assert_eq!(numbers("a\nb", "a\nb\nx\ny"), [3, 4]);
         assert_eq!(numbers("a\nb", "x\ny\na\nb"), [1, 2]);
         assert_eq!(numbers("a\nb", "a\nb"), [0; 0]);
-    }
-
-    #[test]
-    fn a_file_that_was_saved_meanwhile_stays() {
-        let folder = tempfile::tempdir().expect("a folder");
-        let path = folder.path().join("a.rhai");
-        fs::write(&path, "mine").expect("a file");
-        assert!(matches!(replace_unchanged(&path, "old", "new"), Err(Refused::Changed)));
-        assert_eq!(fs::read_to_string(&path).expect("a text"), "mine");
-        replace_unchanged(&path, "mine", "new").expect("it is as it was");
-        assert_eq!(fs::read_to_string(&path).expect("a text"), "new");
-        assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 1, "nothing is left beside it");
     }
 }

@@ -477,7 +477,7 @@ fn a_number_that_cannot_be_placed_is_shown_and_left() {
     let digest = studio.run("ball.rhai", &json!([])).event("scene")["digest"].clone();
     let refused = studio.save(&digest, &json!([["mu_l", 0.75]]));
     let text = refused.json()["error"].as_str().expect("a text").to_owned();
-    assert!(refused.status == 409 && text.contains("ball.rhai:2:1") && text.contains("more than once"), "{text}");
+    assert!(refused.status == 409 && text.contains("ball.rhai:1:1") && text.contains("2 times (line 1, 2)"), "{text}");
     assert_eq!(studio.read("scenarios/ball.rhai"), twice);
 }
 

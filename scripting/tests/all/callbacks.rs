@@ -1,7 +1,10 @@
 //! What a script may do while the world runs.
 
+use std::thread;
+use std::time::Duration;
+
 use choque_engine::World;
-use choque_scripting::{Callbacks, Step};
+use choque_scripting::{Callbacks, Options, Step};
 
 use crate::support::{Folder, listening, run, scene};
 
@@ -225,4 +228,18 @@ fn no_step_is_made_once_a_run_is_done() {
     assert_eq!(done.step().unwrap(), Step::Done);
     assert_eq!(done.world().iteration(), 2);
     assert_eq!(run(r#"mobile("a").rect(1, 1); steps(0);"#).0.world().iteration(), 0);
+}
+
+#[test]
+fn a_script_is_stopped_from_another_thread() {
+    let options = Options::default();
+    let stop = options.stop.clone();
+    let stopping = thread::spawn(move || {
+        thread::sleep(Duration::from_millis(30));
+        stop.ask();
+    });
+    let folder = Folder::with(&[("scene.rhai", "loop { }")]);
+    let error = folder.load("scene.rhai", &options).unwrap_err();
+    assert!(error.contains("the script was stopped before its end"), "{error}");
+    stopping.join().unwrap();
 }

@@ -10,7 +10,6 @@ mod ledger;
 mod manual;
 mod mathematics;
 mod params;
-mod rewriting;
 mod sandbox;
 mod support;
 mod words;

@@ -119,3 +119,17 @@ fn a_scenario_with_other_numbers_is_the_one_loaded_with_them() {
     assert_eq!(scene.with(&[("mu_l".to_owned(), 0.25)], settings).unwrap().scene().settings.mu_l, 0.25);
     assert_eq!(scene.with(&[], Overrides::default()).unwrap().scene().settings, scene.scene().settings);
 }
+
+#[test]
+fn what_may_be_tuned_is_told_with_what_the_script_says() {
+    let folder = Folder::with(&[("scene.rhai", "mu_l(0.5); param(\"count\", 3, 1, 9); param(\"push\", 8.0);")]);
+    let options = Options { set: vec![("push".to_owned(), 2.0)], ..Options::default() };
+    let scenario = folder.load("scene.rhai", &options).unwrap();
+    let told = scenario.controls().iter().map(|control| {
+        (control.name.as_str(), control.value, control.written, control.range, control.is_param, control.is_whole)
+    });
+    let params = [("count", 3.0, 3.0, Some((1.0, 9.0)), true, true), ("push", 2.0, 8.0, None, true, false)];
+    assert_eq!(told.clone().skip(5).collect::<Vec<_>>(), params);
+    assert_eq!(told.clone().next(), Some(("mu_l", 0.5, 0.5, None, false, false)));
+    assert_eq!(told.count(), 7);
+}
