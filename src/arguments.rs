@@ -40,6 +40,13 @@ pub struct ScenarioArguments {
     /// How pairs worth testing are found; the result never depends on it
     #[arg(long, value_name = "WAY", value_parser = choice(BroadPhaseChoice::WORDS, BroadPhaseChoice::from_word))]
     broad_phase: Option<BroadPhaseChoice>,
+    #[command(flatten)]
+    script: ScriptArguments,
+}
+
+/// What a script may read, and how long it may take.
+#[derive(Args, Clone, Debug)]
+pub struct ScriptArguments {
     /// Where imports and models are looked up after the script's own folder
     /// [default: the nearest folder above the script that is named `scenarios`]
     #[arg(long, value_name = "DIR")]
@@ -47,6 +54,20 @@ pub struct ScenarioArguments {
     /// Time a script's main part, and each single callback, may take [s]
     #[arg(long, value_name = "S", default_value = "10", value_parser = seconds)]
     script_timeout: Duration,
+}
+
+impl Default for ScriptArguments {
+    fn default() -> Self {
+        ScriptArguments { library: None, script_timeout: Options::default().script_timeout }
+    }
+}
+
+impl ScriptArguments {
+    /// The same, as the scripting crate wants it.
+    #[must_use]
+    pub fn options(&self) -> Options {
+        Options { library: self.library.clone(), script_timeout: self.script_timeout, ..Options::default() }
+    }
 }
 
 impl Default for ScenarioArguments {
@@ -62,8 +83,7 @@ impl Default for ScenarioArguments {
             detection: None,
             motion: None,
             broad_phase: None,
-            library: None,
-            script_timeout: Options::default().script_timeout,
+            script: ScriptArguments::default(),
         }
     }
 }
@@ -84,9 +104,7 @@ impl ScenarioArguments {
                 motion: self.motion,
                 broad_phase: self.broad_phase,
             },
-            library: self.library.clone(),
-            script_timeout: self.script_timeout,
-            ..Options::default()
+            ..self.script.options()
         }
     }
 }

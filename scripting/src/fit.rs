@@ -80,8 +80,12 @@ impl Variable {
         let own = param.and_then(|param| param.range);
         let range = self.range.or(own).filter(|(min, max)| min < max).ok_or_else(|| {
             let written = if SETTINGS.contains(&name.as_str()) { name.clone() } else { format!("\"{name}\"") };
-            Complaint::new(format!("vary {name}: nothing says between what it may vary"))
-                .hint(format!("write vary({written}, min, max)"))
+            match own {
+                Some((only, _)) => Complaint::new(format!("vary {name}: its param allows {only} alone"))
+                    .hint("give the param a range that it can vary in"),
+                None => Complaint::new(format!("vary {name}: nothing says between what it may vary"))
+                    .hint(format!("write vary({written}, min, max)")),
+            }
         })?;
         match own {
             Some((min, max)) if range.0 < min || range.1 > max => Err(Complaint::new(format!(

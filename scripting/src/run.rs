@@ -161,6 +161,18 @@ impl Run {
         let Source::Script(scripted) = &self.source else { return Ok(Vec::new()) };
         scripted.script.aims.iter().map(|aim| fit::measure(&scripted.script, aim)).collect()
     }
+
+    /// A complaint about the target of that number, shown where the script declares it.
+    #[must_use]
+    pub fn complain_of_target(&self, which: usize, message: &str, hint: &str) -> Diagnostic {
+        let complaint = Complaint::new(message).hint(hint);
+        match &self.source {
+            Source::Script(scripted) if which < scripted.script.aims.len() => {
+                scripted.script.complain_of(&scripted.script.aims[which].pending, complaint)
+            }
+            _ => Diagnostic::of(complaint),
+        }
+    }
 }
 
 impl fmt::Debug for Run {

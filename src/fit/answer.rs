@@ -44,11 +44,13 @@ pub struct Value {
     pub value: f64,
     /// What the scenario says, `--set` included.
     pub was: f64,
+    /// Whether it takes whole numbers only.
+    pub whole: bool,
     /// Between what it could vary.
     pub range: [f64; 2],
     /// Between what the residual grows by no more than the tolerance, the other values following.
     pub interval: [f64; 2],
-    /// Whether that interval is less than half of the range.
+    /// Whether that interval is less than half of the range, and no long way along which nothing changes.
     pub determined: bool,
     /// Values that move along with it from one end of the interval to the other.
     pub along: Vec<Along>,

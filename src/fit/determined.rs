@@ -5,7 +5,11 @@ use super::problem::{BAD, Bench, Horizon, Problem};
 use super::refine::{Found, derivatives, refine};
 
 /// A value that may be moved over more than this share of its range is not determined.
-pub const LOOSE: f64 = 0.5;
+const LOOSE: f64 = 0.5;
+/// Nor is one that may be moved over more than this share, where less and less tolerance does not hold it either.
+const VALLEY: f64 = 0.1;
+/// That less tolerance, and how much shorter the way must be with it.
+const STRICTER: (f64, f64) = (0.01, 0.5);
 /// Another value that goes along over more than this share of its own range is named.
 const GOES_ALONG: f64 = 0.05;
 /// The first move, as a share of the range; each next one is twice as long.
@@ -22,33 +26,43 @@ pub struct Determined {
     pub low: f64,
     /// See `low`.
     pub high: f64,
+    /// Whether it can be almost anything, alone or together with others.
+    pub is_loose: bool,
     /// Others that moved along, by index, with their shares at the low end and at the high end.
     pub along: Vec<(usize, f64, f64)>,
-}
-
-impl Determined {
-    /// Whether it can be almost anything.
-    #[must_use]
-    pub fn is_loose(&self) -> bool {
-        self.high - self.low > LOOSE
-    }
 }
 
 /// Follows the valley through a minimum to both sides of every value.
 #[must_use]
 pub fn determine(problem: &Problem, found: &Found, tolerance: f64, jobs: usize) -> Vec<Determined> {
-    let sides: Vec<(usize, f64)> = (0..problem.dimension()).flat_map(|i| [(i, -1.0), (i, 1.0)]).collect();
-    let ends = problem.spread(&sides, jobs, |bench, (axis, sign)| follow(bench, found, *axis, *sign, tolerance));
-    let told = |(axis, ends): (usize, &[Vec<f64>])| {
-        let others = (0..problem.dimension()).filter(|other| *other != axis);
-        let along = others.map(|other| (other, ends[0][other], ends[1][other]));
-        Determined {
-            low: ends[0][axis],
-            high: ends[1][axis],
-            along: along.filter(|(_, low, high)| (high - low).abs() > GOES_ALONG).collect(),
-        }
+    let axes: Vec<usize> = (0..problem.dimension()).collect();
+    let ends = |axes: &[usize], tolerance: f64| {
+        let sides: Vec<(usize, f64)> = axes.iter().flat_map(|axis| [(*axis, -1.0), (*axis, 1.0)]).collect();
+        problem.spread(&sides, jobs, |bench, (axis, sign)| follow(bench, found, *axis, *sign, tolerance))
     };
-    ends.chunks(2).enumerate().map(told).collect()
+    let mut told: Vec<Determined> =
+        axes.iter().zip(ends(&axes, tolerance).chunks(2)).map(|(axis, ends)| of(problem, *axis, ends)).collect();
+    let in_doubt = |axis: &usize| !told[*axis].is_loose && told[*axis].high - told[*axis].low > VALLEY;
+    let in_doubt: Vec<usize> = axes.into_iter().filter(in_doubt).collect();
+    for (axis, ends) in in_doubt.iter().zip(ends(&in_doubt, STRICTER.0 * tolerance).chunks(2)) {
+        let known = &mut told[*axis];
+        known.is_loose = ends[1][*axis] - ends[0][*axis] > STRICTER.1 * (known.high - known.low);
+    }
+    told
+}
+
+/// What the two ends of a value's valley say.
+fn of(problem: &Problem, axis: usize, ends: &[Vec<f64>]) -> Determined {
+    let others = (0..problem.dimension()).filter(|other| *other != axis);
+    let along = others.map(|other| (other, ends[0][other], ends[1][other]));
+    // A number that counts stays the same over a part of its range.
+    let [low, high] = [0, 1].map(|end| problem.share(axis, problem.value(axis, ends[end][axis])));
+    Determined {
+        low,
+        high,
+        is_loose: high - low > LOOSE,
+        along: along.filter(|(_, low, high)| (high - low).abs() > GOES_ALONG).collect(),
+    }
 }
 
 /// The furthest place along a valley to one side, the others following where the cost would grow otherwise.

@@ -160,7 +160,10 @@ fn pose(arguments: &FitArguments, scenario: &Scenario) -> Result<Problem, Error>
         Some(path) => Some(Recorded::new(&Recording::read(path)?, scenario.scene())?),
         None => None,
     };
-    Ok(Problem::new(&arguments.file, &arguments.scenario, varied, recorded))
+    let mut problem = Problem::new(&arguments.file, &arguments.scenario, varied, recorded);
+    let is_whole = |name: &str| scenario.controls().iter().any(|control| control.name == name && control.is_whole);
+    problem.find_whole(is_whole);
+    Ok(problem)
 }
 
 /// The text of the script that values are to be written into.

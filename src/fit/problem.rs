@@ -22,6 +22,8 @@ pub struct Problem {
     arguments: ScenarioArguments,
     /// What may vary, and between what.
     pub varied: Vec<Varied>,
+    /// Which of it takes whole values only.
+    pub whole: Vec<bool>,
     /// What runs are compared with.
     pub recorded: Option<Recorded>,
     tally: Mutex<Tally>,
@@ -82,7 +84,37 @@ impl Problem {
     #[must_use]
     pub fn new(file: &Path, arguments: &ScenarioArguments, varied: Vec<Varied>, recorded: Option<Recorded>) -> Self {
         let tally = Mutex::new(Tally { runs: 0, progress: None });
-        Problem { file: file.to_owned(), arguments: arguments.clone(), varied, recorded, tally }
+        let whole = vec![false; varied.len()];
+        Problem { file: file.to_owned(), arguments: arguments.clone(), varied, whole, recorded, tally }
+    }
+
+    /// Finds out which numbers count something: of those that the script writes as whole numbers the ones with which no run
+    /// can be made in between, or where what lies in between is all the same although whole numbers are not.
+    pub fn find_whole(&mut self, written_whole: impl Fn(&str) -> bool) {
+        for axis in 0..self.dimension() {
+            self.whole[axis] = written_whole(&self.varied[axis].name) && self.counts(axis);
+        }
+    }
+
+    fn counts(&self, axis: usize) -> bool {
+        let (min, max) = self.varied[axis].range;
+        let own = self.varied[axis].value.clamp(min, max);
+        let from = if own + 1.0 <= max { own } else { own - 1.0 };
+        if from < min || from.fract() != 0.0 {
+            return false;
+        }
+        let bench = self.bench();
+        let residuals = |value: f64| {
+            let mut values = self.values(&self.own());
+            values[axis].1 = value;
+            bench.run(&values, Horizon::Whole).ok().map(|residuals| residuals.all())
+        };
+        let [low, third, half, high] = [0.0, 0.3, 0.55, 1.0].map(|more| residuals(from + more));
+        match (third, half) {
+            (Some(third), Some(half)) => third == half && low != high,
+            (None, None) => low.is_some() || high.is_some(),
+            _ => false,
+        }
     }
 
     /// How many numbers vary.
@@ -94,18 +126,42 @@ impl Problem {
     /// The scenario's own values, as shares of their ranges.
     #[must_use]
     pub fn own(&self) -> Vec<f64> {
-        let share = |varied: &Varied| (varied.value - varied.range.0) / (varied.range.1 - varied.range.0);
-        self.varied.iter().map(|varied| share(varied).clamp(0.0, 1.0)).collect()
+        self.varied.iter().enumerate().map(|(axis, varied)| self.share(axis, varied.value)).collect()
+    }
+
+    /// The share of its range at which a number has a value.
+    #[must_use]
+    pub fn share(&self, axis: usize, value: f64) -> f64 {
+        let (min, max) = self.varied[axis].range;
+        ((value - min) / (max - min)).clamp(0.0, 1.0)
     }
 
     /// The values at a place, whose coordinates are shares of the ranges.
     #[must_use]
     pub fn values(&self, place: &[f64]) -> Vec<(String, f64)> {
-        let value = |(varied, share): (&Varied, &f64)| {
-            let (min, max) = varied.range;
-            (varied.name.clone(), (min + share * (max - min)).clamp(min, max))
-        };
-        self.varied.iter().zip(place).map(value).collect()
+        let value = |(axis, share): (usize, &f64)| (self.varied[axis].name.clone(), self.value(axis, *share));
+        place.iter().enumerate().map(value).collect()
+    }
+
+    /// The value of one number at a share of its range.
+    #[must_use]
+    pub fn value(&self, axis: usize, share: f64) -> f64 {
+        let (min, max) = self.varied[axis].range;
+        let value = (min + share * (max - min)).clamp(min, max);
+        if self.whole[axis] { value.round().clamp(min.ceil(), max.floor()) } else { value }
+    }
+
+    /// Shares of a number's range worth trying one after the other: all whole numbers where it takes no others, else so many
+    /// evenly.
+    #[must_use]
+    pub fn shares(&self, axis: usize, even: usize) -> Vec<f64> {
+        const MOST_WHOLE: f64 = 64.0;
+        let (min, max) = self.varied[axis].range;
+        let (first, last) = (min.ceil(), max.floor());
+        if self.whole[axis] && last - first < MOST_WHOLE {
+            return (0..=(last - first) as usize).map(|step| (first + step as f64 - min) / (max - min)).collect();
+        }
+        (0..even).map(|step| (step as f64 + 0.5) / even as f64).collect()
     }
 
     /// A place to make runs at, for one thread.
@@ -203,14 +259,11 @@ impl Bench<'_> {
         }
         advance(&mut run, steps)?;
         let targets = run.measure()?;
-        if let Some(target) = targets.iter().find(|target| !target.residual.is_finite()) {
-            return Err(Error::Call {
-                message: format!(
-                    "target \"{}\" came to {}, which is no number to bring to 0",
-                    target.text, target.residual
-                ),
-                hint: "look for a division by zero in it, or for a root of what may be negative".to_owned(),
-            });
+        if let Some(which) = targets.iter().position(|target| !target.residual.is_finite()) {
+            let Target { text, residual, .. } = &targets[which];
+            let message = format!("target \"{text}\" came to {residual}, which is no number to bring to 0");
+            let hint = "look for a division by zero in it, or for a root of what may be negative";
+            return Err(run.complain_of_target(which, &message, hint).into());
         }
         Ok(Residuals { targets, poses })
     }

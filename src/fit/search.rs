@@ -158,13 +158,13 @@ fn stages(problem: &Problem, samples: &[Sample]) -> Vec<Horizon> {
 fn descend(bench: &Bench, start: &Found, horizon: Horizon) -> Found {
     let mut found = start.clone();
     for axis in 0..bench.problem.dimension() {
-        for step in 0..ALONG {
+        for share in bench.problem.shares(axis, ALONG) {
             if found.cost <= ROUNDING {
                 return found;
             }
             let mut place = start.place.clone();
             place[..axis].copy_from_slice(&found.place[..axis]);
-            place[axis] = (step as f64 + 0.5) / ALONG as f64;
+            place[axis] = share;
             let cost = bench.cost(&place, horizon);
             if cost < found.cost {
                 found = Found { place, cost };

@@ -48,13 +48,13 @@ pub fn solve(problem: &Problem, effort: Effort, tolerance: f64) -> Result<Solved
     let bench = problem.bench();
     let mut best = refine(&bench, best, Horizon::Whole, None, ROUNDING, LAST_STEPS);
     let mut determined = determine(problem, &best, tolerance, effort.jobs);
-    let open: Vec<bool> = determined.iter().map(Determined::is_loose).collect();
+    let open: Vec<bool> = determined.iter().map(|known| known.is_loose).collect();
     if open.contains(&true) {
         best = settle(&bench, best, tolerance, &open);
         determined = determine(problem, &best, tolerance, effort.jobs);
     }
     let values = rounded(&bench, &best, tolerance);
-    let others = others(&found, &best, &determined, tolerance);
+    let others = others(problem, &found, &best, &determined, tolerance);
     problem.hush();
     Ok(Solved { best, values, determined, others })
 }
@@ -91,10 +91,11 @@ fn rounded(bench: &Bench, best: &Found, tolerance: f64) -> Vec<(String, f64)> {
 }
 
 /// Answers that are as good and far from the best, but not along a direction that is open anyway.
-fn others(found: &[Found], best: &Found, determined: &[Determined], tolerance: f64) -> Vec<Found> {
+fn others(problem: &Problem, found: &[Found], best: &Found, determined: &[Determined], tolerance: f64) -> Vec<Found> {
     let is_apart = |a: &Found, b: &Found| {
-        let mut pairs = a.place.iter().zip(&b.place).zip(determined);
-        pairs.any(|((a, b), known)| !known.is_loose() && known.along.is_empty() && (a - b).abs() > FAR_APART)
+        let share = |place: &Found, axis: usize| problem.share(axis, problem.value(axis, place.place[axis]));
+        let mut axes = determined.iter().enumerate().filter(|(_, known)| !known.is_loose && known.along.is_empty());
+        axes.any(|(axis, _)| (share(a, axis) - share(b, axis)).abs() > FAR_APART)
     };
     let mut others: Vec<Found> = Vec::new();
     for other in found.iter().filter(|other| other.cost <= best.cost + tolerance) {
@@ -147,10 +148,7 @@ fn numbers(problem: &Problem, place: &[f64]) -> Vec<f64> {
 }
 
 fn values(problem: &Problem, solved: &Solved) -> Vec<Value> {
-    let value = |axis: usize, share: f64| {
-        let (min, max) = problem.varied[axis].range;
-        min + share * (max - min)
-    };
+    let value = |axis: usize, share: f64| problem.value(axis, share);
     let along = |(other, low, high): &(usize, f64, f64)| Along {
         name: problem.varied[*other].name.clone(),
         ends: [value(*other, *low), value(*other, *high)],
@@ -159,9 +157,10 @@ fn values(problem: &Problem, solved: &Solved) -> Vec<Value> {
         name: problem.varied[axis].name.clone(),
         value: solved.values[axis].1,
         was: problem.varied[axis].value,
+        whole: problem.whole[axis],
         range: problem.varied[axis].range.into(),
         interval: [value(axis, known.low), value(axis, known.high)],
-        determined: !known.is_loose(),
+        determined: !known.is_loose,
         along: known.along.iter().map(along).collect(),
     };
     solved.determined.iter().enumerate().map(of).collect()

@@ -8,6 +8,8 @@ use crate::terminal::{BAD, GOOD, HEADING, WARNING, styled};
 
 /// Correlations as strong as that are told of.
 const STRONG: f64 = 0.95;
+/// As much of a range is nearly all of it.
+const NEARLY_ALL: f64 = 0.9;
 
 /// The values, the residuals, what is not determined, and whether everything is met.
 #[must_use]
@@ -62,7 +64,8 @@ fn values(answer: &Answer) -> String {
         };
         let interval = format!("{}{note}", between(low, high));
         let found = format!("{}", value.value);
-        vec![value.name.clone(), found, format!("{}", value.was), format!("{min} … {max}"), interval]
+        let range = format!("{min} … {max}{}", if value.whole { ", whole" } else { "" });
+        vec![value.name.clone(), found, format!("{}", value.was), range, interval]
     };
     table(&columns, &answer.values.iter().map(row).collect::<Vec<_>>())
 }
@@ -70,7 +73,10 @@ fn values(answer: &Answer) -> String {
 /// Two numbers with as many digits as tell them apart.
 fn between(low: f64, high: f64) -> String {
     let width = high - low;
-    let decimals = if width > 0.0 { (1.0 - libm::floor(libm::log10(width))).clamp(0.0, 15.0) as usize } else { 6 };
+    if width == 0.0 {
+        return format!("{low} … {high}");
+    }
+    let decimals = (1.0 - libm::floor(libm::log10(width))).clamp(0.0, 15.0) as usize;
     format!("{low:.decimals$} … {high:.decimals$}")
 }
 
@@ -100,9 +106,13 @@ fn open(value: &Value) -> String {
         .iter()
         .map(|along| format!("{} goes along from {} to {}", along.name, rough(along.ends[0]), rough(along.ends[1])))
         .collect();
+    let whole_range = value.range[1] - value.range[0];
     match along.is_empty() {
-        true => format!("{moves} and hardly anything changes: what is wanted does not depend on it"),
-        false => format!("{moves} if {}: only the two together are determined", along.join(" and ")),
+        true if high - low > NEARLY_ALL * whole_range => {
+            format!("{moves} and hardly anything changes: what is wanted does not depend on it")
+        }
+        true => format!("{moves} before it makes a difference: what is wanted hardly depends on it"),
+        false => format!("{moves} if {}: only together are they determined", along.join(" and ")),
     }
 }
 

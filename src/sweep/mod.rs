@@ -29,7 +29,7 @@ use std::path::PathBuf;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use crate::arguments::threads;
+use crate::arguments::{ScriptArguments, threads};
 use crate::output::numbers::counted;
 use crate::progress::Progress;
 use crate::report::jobs::{cores, locked};
@@ -60,6 +60,9 @@ pub struct SweepArguments {
     /// Make only every N-th run, from the K-th on; `choque merge` puts the shards together
     #[arg(long, value_name = "K/N", value_parser = Shard::parse, allow_hyphen_values = true)]
     pub shard: Option<Shard>,
+    /// Folders and times of the scripts.
+    #[command(flatten)]
+    pub scripts: ScriptArguments,
 }
 
 /// What `merge` is given.
@@ -84,7 +87,7 @@ pub fn sweep(arguments: &SweepArguments) -> Result<Verdict, Error> {
     let place = Place::of(&arguments.output, arguments.format)?;
     let file = PlanFile::read(&arguments.plan)?;
     let columns = Columns::of(&file.plan);
-    let runs = Runs::of(&file)?;
+    let runs = Runs::of(&file, &arguments.scripts)?;
     let fingerprint = runs.check(&file, &columns)?;
     let identity = Identity { version: env!("CARGO_PKG_VERSION").to_owned(), plan: fingerprint, runs: runs.count() };
     let known = shard::read_all(&place.folder, &columns)?;

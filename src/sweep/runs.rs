@@ -10,6 +10,7 @@ use super::plan::PlanFile;
 use super::plots;
 use super::table::{Cell, Columns, on_one_line};
 use crate::Error;
+use crate::arguments::ScriptArguments;
 use crate::outcome::hexadecimal;
 
 /// All runs of a plan. A run's number is its place: scenarios, then points, then seeds, the last fastest.
@@ -24,6 +25,8 @@ pub struct Runs {
     /// What every run is given.
     set: Vec<(String, Value)>,
     names: Vec<String>,
+    /// What scripts may read, and how long they may take.
+    scripts: ScriptArguments,
 }
 
 /// What one run is asked for.
@@ -42,6 +45,9 @@ pub struct Asked {
 /// A folder of this name holds what scenarios import.
 const LIBRARY: &str = "lib";
 
+/// Points whose scripts are run beforehand, to see what they read.
+const LOOKED_AT: usize = 16;
+
 /// How many runs a sweep may have.
 const MOST_RUNS: usize = 100_000_000;
 
@@ -50,7 +56,7 @@ impl Runs {
     ///
     /// # Errors
     /// A pattern that finds nothing; more runs than can be made.
-    pub fn of(file: &PlanFile) -> Result<Runs, Error> {
+    pub fn of(file: &PlanFile, scripts: &ScriptArguments) -> Result<Runs, Error> {
         let plan = &file.plan;
         let folder = file.path.parent().unwrap_or(Path::new(""));
         let mut scenarios: Vec<(String, PathBuf)> = Vec::new();
@@ -63,7 +69,7 @@ impl Runs {
         let seeds = if plan.seeds.is_empty() { vec![None] } else { plan.seeds.iter().copied().map(Some).collect() };
         let names = plan.vary.iter().map(|axis| axis.name.clone()).collect();
         let set = plan.set.iter().map(|(name, value)| (name.clone(), value.clone())).collect();
-        let runs = Runs { scenarios, points, seeds, set, names };
+        let runs = Runs { scenarios, points, seeds, set, names, scripts: scripts.clone() };
         match runs.points.len().checked_mul(runs.scenarios.len()).and_then(|n| n.checked_mul(runs.seeds.len())) {
             Some(count) if count <= MOST_RUNS => Ok(runs),
             _ => Err(file.complain("", format!("these are more than {MOST_RUNS} runs"), None)),
@@ -111,8 +117,14 @@ impl Runs {
         cells
     }
 
-    /// Loads every scenario with its first point and checks that what varies is there to be varied. Gives the plan's
-    /// fingerprint: of what it runs, and of the text of every script.
+    /// How scenarios are loaded: what they print is not read by anyone.
+    #[must_use]
+    pub fn options(&self) -> Options {
+        Options { output: Output::to(|_| {}), ..self.scripts.options() }
+    }
+
+    /// Loads every scenario and checks that what varies is there to be varied. Gives the plan's fingerprint: of what it
+    /// runs, and of every script and model that is read for it.
     ///
     /// # Errors
     /// A scenario that cannot be loaded, that lacks a param or a body, or whose param may not go where the plan goes.
@@ -125,23 +137,40 @@ impl Runs {
         let plan = &file.plan;
         let what = format!("{:?}{:?}{:?}{:?}{:?}", plan.points, plan.vary, plan.set, plan.seeds, plan.read);
         let mut digest = fingerprint(0xcbf2_9ce4_8422_2325, &what);
-        for (name, path) in &self.scenarios {
-            let scenario = Scenario::load(path, &options())?;
+        for (index, (name, path)) in self.scenarios.iter().enumerate() {
+            let scenario = Scenario::load(path, &self.options())?;
             check_names(file, name, &scenario)?;
-            let texts: String = scenario.sources().into_iter().map(|(_, text)| text).collect();
-            digest = fingerprint(fingerprint(digest, name), &texts);
+            digest = self
+                .texts(index, &scenario)
+                .iter()
+                .fold(fingerprint(digest, name), |digest, text| fingerprint(digest, text));
             for read in &plan.read {
                 check_read(file, name, read, &scenario)?;
             }
         }
         Ok(hexadecimal(digest))
     }
+
+    /// Every text that a scenario is made of, also where a param decides which model is read: as many points as
+    /// [`LOOKED_AT`] are looked at. Without their folders, which have other names on
+    /// other machines.
+    fn texts(&self, scenario: usize, loaded: &Scenario) -> Vec<String> {
+        let per_scenario = self.points.len() * self.seeds.len();
+        let looked_at = per_scenario.min(LOOKED_AT);
+        for place in 0..looked_at {
+            let run = scenario * per_scenario + place * (per_scenario - 1) / (looked_at - 1).max(1);
+            let asked = self.asked(run);
+            drop(loaded.with(&asked.set, asked.overrides)); // an error is a row of its own later
+        }
+        let named = |(path, text): (String, String)| format!("{}\n{text}", stem_of(&path));
+        let mut texts: Vec<String> = loaded.sources().into_iter().map(named).collect();
+        texts.sort();
+        texts
+    }
 }
 
-/// How scenarios of a sweep are loaded: what they print is not read by anyone.
-#[must_use]
-pub fn options() -> Options {
-    Options { output: Output::to(|_| {}), ..Options::default() }
+fn stem_of(path: &str) -> &str {
+    Path::new(path).file_stem().and_then(|stem| stem.to_str()).unwrap_or_default()
 }
 
 /// The files of a pattern, in the order of their names.

@@ -3,7 +3,7 @@
 //! The first line says what the rows belong to, the second names the columns; then a row a line, in the order in which
 //! runs ended. Every row is written in one go; of a row that was cut off nothing counts.
 
-use std::fs::{File, OpenOptions};
+use std::fs::{File, OpenOptions, TryLockError};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -174,12 +174,13 @@ impl Writer {
         known: Option<&Rows>,
     ) -> Result<Self, Error> {
         let path = folder.join(shard.file());
-        let open = || {
-            let file = OpenOptions::new().create(true).append(true).open(&path)?;
-            file.set_len(known.map_or(0, |rows| rows.whole))?;
-            Ok(file)
-        };
-        let file = open().map_err(|source| Error::File { verb: "write", path: path.clone(), source })?;
+        let failed = |source| Error::File { verb: "write", path: path.clone(), source };
+        let file = OpenOptions::new().create(true).append(true).open(&path).map_err(failed)?;
+        if matches!(file.try_lock(), Err(TryLockError::WouldBlock)) {
+            let hint = "wait for it, or give another folder: -o DIR".to_owned();
+            return Err(Error::Call { message: format!("another sweep is writing {}", path.display()), hint });
+        }
+        file.set_len(known.map_or(0, |rows| rows.whole)).map_err(failed)?;
         let mut writer = Writer { path, file };
         if known.is_none() {
             writer.write(&[identity.line().as_bytes(), &columns.headings()].concat())?;

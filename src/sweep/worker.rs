@@ -3,7 +3,7 @@
 use choque_engine::World;
 use choque_scripting::Scenario;
 
-use super::runs::{Runs, options};
+use super::runs::Runs;
 use super::table::{Cell, Columns, Row, on_one_line};
 use crate::Error;
 use crate::outcome::{hexadecimal, positive_zero};
@@ -48,7 +48,7 @@ impl<'a> Worker<'a> {
         let slot = &mut self.loaded[index];
         match slot {
             Some(scenario) => Ok(scenario),
-            None => Ok(slot.insert(Scenario::load(&self.runs.scenarios[index].1, &options())?)),
+            None => Ok(slot.insert(Scenario::load(&self.runs.scenarios[index].1, &self.runs.options())?)),
         }
     }
 }

@@ -103,6 +103,41 @@ fn two_values_that_only_count_together_are_named_as_a_pair() {
 }
 
 #[test]
+fn of_a_sum_neither_part_is_determined() {
+    let script = "steps(60); let a = param(\"a\", 1.0, 0, 2); let b = param(\"b\", 1.0, 0, 2);\n\
+        mobile(\"car\").rect(1, 1).velocity(a + b, 0);\n\
+        target(\"at 3\", |world| world[\"car\"].x - 3); vary(\"a\"); vary(\"b\");";
+    let folder = folder(&[("sum.rhai", script)]);
+    let answer = fit(folder.path(), &["sum.rhai"]);
+    let [a, b] = ["a", "b"].map(|name| found(&answer, name));
+    assert!((number(&a["value"]) + number(&b["value"]) - 3.0).abs() < 1e-3, "{answer}");
+    for (value, other) in [(a, "b"), (b, "a")] {
+        assert_eq!(value["determined"], false, "{value}");
+        assert_eq!(value["along"][0]["name"], other, "{value}");
+        let [low, high] = [0, 1].map(|end| number(&value["interval"][end]));
+        assert!((low - 1.0).abs() < 0.03 && (high - 2.0).abs() < 1e-9, "{value}");
+    }
+}
+
+#[test]
+fn numbers_that_count_and_switches_are_found_as_whole_numbers() {
+    let script = "steps(60); let n = param(\"n\", 2, 1, 40); let v = param(\"v\", 1.5, 0, 10);\n\
+        let on = param(\"on\", 0, 0, 1); let push = param(\"push\", 2, 0, 9);\n\
+        for i in 0..n { mobile(`c${i}`).rect(1, 1).at(3 * i, 0).velocity(if on == 1 { v } else { 0.0 }, push); }\n\
+        target(\"17 cars\", |world| world.bodies().len() - 17); target(\"x\", |world| world[\"c0\"].x - 4.2);\n\
+        target(\"z\", |world| world[\"c0\"].z - 2.5);\n\
+        vary(\"n\"); vary(\"v\"); vary(\"on\"); vary(\"push\");";
+    let folder = folder(&[("counts.rhai", script)]);
+    let answer = fit(folder.path(), &["counts.rhai"]);
+    assert!(answer["met"] == true && answer["alternatives"] == serde_json::json!([]), "{answer}");
+    for (name, known, whole) in [("n", 17.0, true), ("v", 4.2, false), ("on", 1.0, true), ("push", 2.5, false)] {
+        let value = found(&answer, name);
+        assert!((number(&value["value"]) - known).abs() < if whole { 1e-300 } else { 1e-3 }, "{value}");
+        assert_eq!((value["whole"].as_bool(), value["determined"].as_bool()), (Some(whole), Some(true)), "{value}");
+    }
+}
+
+#[test]
 fn the_answer_is_the_same_at_any_number_of_jobs_and_for_one_seed() {
     let scenarios = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/fit");
     let answers = ["1", "3"].map(|jobs| fit(&scenarios, &["stops_at_the_kerb.rhai", "--jobs", jobs]));
