@@ -25,7 +25,7 @@ pub fn figure(problem: &Problem, answer: &Answer, best: &Found, jobs: usize) -> 
         points: vec![limit(0.0), limit(1.0)],
     };
     let series = (0..problem.dimension()).map(|axis| {
-        let places = shares(best.place[axis]);
+        let places = if problem.whole[axis] { problem.shares(axis, POINTS) } else { shares(best.place[axis]) };
         let costs = problem.spread(&places, jobs, |bench, share| {
             let mut place = best.place.clone();
             place[axis] = *share;

@@ -117,13 +117,13 @@ impl PlanFile {
         Ok(file)
     }
 
-    /// A complaint shown where a text first stands in quotes, or else about the whole file.
+    /// A complaint shown where a name first stands in quotes or as a key, or else about the whole file.
     #[must_use]
     pub fn complain(&self, about: &str, message: String, hint: Option<String>) -> Error {
-        let quoted = format!("{about:?}");
+        let forms = [format!("{about:?}"), format!("{about}:")];
         let uncommented = |line: &str| line.find("//").map_or(line.len(), |comment| comment);
         let found = self.text.lines().enumerate().find_map(|(number, line)| {
-            let at = line.find(&quoted).filter(|at| *at < uncommented(line))?;
+            let at = forms.iter().find_map(|form| line.find(form.as_str()).filter(|at| *at < uncommented(line)))?;
             Some((number + 1, line[..at].chars().count() + 1))
         });
         let diagnostic = match found {
@@ -135,9 +135,9 @@ impl PlanFile {
 
     fn check(&self) -> Result<(), Error> {
         let plan = &self.plan;
-        let about_all = |message: &str, hint: &str| self.complain("", message.to_owned(), Some(hint.to_owned()));
         if plan.scenarios.is_empty() {
-            return Err(about_all("a plan needs scenarios", "scenarios: [\"crash.rhai\"]"));
+            let hint = "scenarios: [\"crash.rhai\"]".to_owned();
+            return Err(self.complain("scenarios", "a plan needs scenarios".to_owned(), Some(hint)));
         }
         for (place, axis) in plan.vary.iter().enumerate() {
             self.check_axis(axis)?;
@@ -180,13 +180,13 @@ impl PlanFile {
 
     fn check_points(&self) -> Result<(), Error> {
         let plan = &self.plan;
-        let refuse = |message: String, hint: &str| Err(self.complain("", message, Some(hint.to_owned())));
+        let refuse = |message: String, hint: &str| Err(self.complain("points", message, Some(hint.to_owned())));
         if matches!(plan.points, Points::Sobol { .. }) && plan.vary.len() > sobol::MOST_DIMENSIONS {
             let most = sobol::MOST_DIMENSIONS;
             return refuse(format!("{} things vary; Sobol has {most} at most", plan.vary.len()), "use LatinHypercube");
         }
         match plan.points.count(&plan.vary).filter(|count| *count <= MOST) {
-            Some(0) => refuse("a plan needs points".to_owned(), "count: 1 or more"),
+            Some(0) => refuse("points: count is 0, and a plan needs points".to_owned(), "count: 1 or more"),
             Some(_) => Ok(()),
             None => refuse(format!("these are more than {MOST} points"), "vary less, or take a LatinHypercube"),
         }
@@ -206,7 +206,29 @@ fn not_a_plan(path: &Path, text: &str, error: &ron::error::SpannedError) -> Erro
         _ => None,
     };
     let at = error.span.start;
+    let said = match key_of(text, error) {
+        Some((key, value)) => format!("{key} is {value}: {said}"),
+        None => said,
+    };
     Diagnostic::new(format!("not a plan: {said}")).at(path, text, at.line, at.col).with_hint(hint).into()
+}
+
+/// The key whose value an error is about, and that value as it is written.
+fn key_of<'a>(text: &'a str, error: &ron::error::SpannedError) -> Option<(&'a str, &'a str)> {
+    use ron::Error::{ExpectedFloat, ExpectedInteger, ExpectedString, IntegerOutOfBounds, InvalidValueForType};
+    let of_value = [ExpectedFloat, ExpectedInteger, ExpectedString, IntegerOutOfBounds].contains(&error.code);
+    if !of_value && !matches!(error.code, InvalidValueForType { .. }) {
+        return None;
+    }
+    let at = error.span.start;
+    let (number, row) = text.lines().enumerate().find(|(number, _)| number + 1 == at.line)?;
+    let column = row.char_indices().nth(at.col.saturating_sub(1)).map_or(row.len(), |(byte, _)| byte);
+    let before = text.lines().take(number).map(|line| line.len() + 1).sum::<usize>() + column;
+    let colon = text.get(..before)?.rfind(':')?;
+    let key =
+        text[..colon].rsplit(|c: char| !(c.is_alphanumeric() || c == '_')).next().filter(|key| !key.is_empty())?;
+    let value = text[colon + 1..].split([',', ')', ']', '\n']).next()?.trim();
+    Some((key, value))
 }
 
 /// `[1, 2, 3]` or `(first: 1, count: 3)`.
