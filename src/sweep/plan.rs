@@ -195,7 +195,12 @@ impl PlanFile {
 
 /// What the text has that no plan has.
 fn not_a_plan(path: &Path, text: &str, error: &ron::error::SpannedError) -> Error {
-    let said = error.code.to_string();
+    let said = match error.code {
+        ron::Error::ExpectedFloat => "a number is expected".to_owned(),
+        ron::Error::ExpectedInteger => "a whole number is expected".to_owned(),
+        ron::Error::ExpectedString => "a text in quotes is expected".to_owned(),
+        _ => error.code.to_string(),
+    };
     let mut letters = said.chars();
     let said: String = letters.next().into_iter().flat_map(char::to_lowercase).chain(letters).collect();
     let hint = match error.code {

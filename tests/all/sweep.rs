@@ -238,3 +238,74 @@ fn a_table_as_parquet_says_what_the_csv_says() {
         assert_eq!(row.get_string(error).is_ok(), digests[run].is_empty());
     }
 }
+
+const LIBRARY: &str = "fn car(name) { mobile(name).model(\"cars/box.obj\") }";
+const MODEL: &str = "v -1 -1 -1\nv 1 -1 -1\nv 1 1 1\nv -1 1 1\nf 1 2 3 4\n";
+const IMPORTING: &str = "import \"cars/cars\" as cars;\nsteps(9);\nlet other = param(\"other\", 0, 0, 1);\n\
+    cars::car(\"a\");\nif other > 0.5 { mobile(\"b\").model(\"cars/other.obj\").at(9, 0); }";
+
+#[test]
+fn a_library_is_given_and_what_is_read_from_it_belongs_to_the_sweep() {
+    let plan = "(scenarios: [\"c.rhai\"], vary: [(name: \"other\", from: 0, to: 1, count: 2)])";
+    let folder = folder(&[
+        ("game/c.rhai", IMPORTING),
+        ("game/plan.ron", plan),
+        ("library/cars/cars.rhai", LIBRARY),
+        ("library/cars/box.obj", MODEL),
+        ("library/cars/other.obj", MODEL),
+    ]);
+    let at = folder.path();
+    let told = said(at, &["sweep", "game/plan.ron", "-o", "out"], 2);
+    assert!(told.contains("there is no file \"cars/cars\""), "{told}");
+    let call = ["sweep", "game/plan.ron", "-o", "out", "--library", "library", "--script-timeout", "5"];
+    said(at, &call, 0);
+    assert!(said(at, &call, 0).contains("2 of them made before"));
+    for (file, text) in [("cars.rhai", LIBRARY), ("box.obj", MODEL), ("other.obj", MODEL)] {
+        let file = at.join("library/cars").join(file);
+        write(&file, &format!("{text}\n"));
+        let told = said(at, &call, 2);
+        assert!(told.contains("its scenarios have changed"), "{}: {told}", file.display());
+        write(&file, text);
+    }
+    fs::rename(at.join("library"), at.join("zoo")).expect("it can be renamed");
+    assert!(
+        said(at, &[&call[..5], &["zoo"]].concat(), 0).contains("2 of them made before"),
+        "folders may be elsewhere"
+    );
+}
+
+#[test]
+fn two_sweeps_do_not_write_one_shard_at_once() {
+    let folder = set_up();
+    let at = folder.path();
+    write(&at.join("out/shard_1_of_1.csv"), "");
+    let held = fs::File::open(at.join("out/shard_1_of_1.csv")).expect("the shard");
+    held.lock().expect("it can be locked");
+    let told = said(at, &["sweep", "plan.ron", "-o", "out"], 2);
+    assert!(told.contains("another sweep is writing out/shard_1_of_1.csv"), "{told}");
+    drop(held);
+    said(at, &["sweep", "plan.ron", "-o", "out"], 1);
+}
+
+#[test]
+#[cfg(unix)]
+fn a_sweep_that_is_killed_again_and_again_comes_to_its_end() {
+    let plan = PLAN.replace("count: 5", "count: 200").replace("to: 9", "to: 7");
+    let folder = folder(&[("crash.rhai", CRASH), ("plan.ron", &plan)]);
+    let at = folder.path();
+    said(at, &["sweep", "plan.ron", "-o", "whole"], 1);
+    let mut rows = Vec::new();
+    for wait in [40, 90, 60, 120, 75] {
+        let mut child = choque();
+        let child = child.current_dir(at).args(["sweep", "plan.ron", "-o", "killed"]);
+        let mut child = child.stderr(std::process::Stdio::null()).spawn().expect("it starts");
+        std::thread::sleep(std::time::Duration::from_millis(wait));
+        child.kill().expect("it can be killed");
+        child.wait().expect("it has ended");
+        rows.push(fs::read_to_string(at.join("killed/shard_1_of_1.csv")).map_or(0, |text| text.lines().count()));
+    }
+    assert!(rows.is_sorted(), "nothing is lost: {rows:?}");
+    said(at, &["sweep", "plan.ron", "-o", "killed"], 1);
+    assert_eq!(read(at, "killed/rows.csv"), read(at, "whole/rows.csv"));
+    assert_eq!(read(at, "killed/shard_1_of_1.csv").lines().count(), 200 * 8 + 2, "no run was made twice");
+}
