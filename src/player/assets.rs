@@ -5,12 +5,13 @@ use base64::engine::general_purpose::STANDARD as BASE64;
 use sha2::{Digest, Sha256};
 
 /// The scripts in the order in which they need each other.
-const SCRIPTS: [&str; 14] = [
+const SCRIPTS: [&str; 15] = [
     include_str!("dom.js"),
     include_str!("theme.js"),
     include_str!("unpack.js"),
     include_str!("film.js"),
     include_str!("camera.js"),
+    include_str!("labels.js"),
     include_str!("stage.js"),
     include_str!("plots.js"),
     include_str!("tables.js"),
@@ -19,7 +20,7 @@ const SCRIPTS: [&str; 14] = [
     include_str!("controls.js"),
     include_str!("keys.js"),
     include_str!("page.js"),
-    "globalThis.choque = { Player, Film, unpack, fromBase64, lit, themeSwitch, startPage, KEYS_IN_WORDS };\n",
+    "globalThis.choque = { Player, Film, unpack, fromBase64, lit, listing, themeSwitch, startPage, KEYS_IN_WORDS };\n",
 ];
 
 /// The player as one script, for any page: it defines `choque`, with `Player` and `unpack`, and does nothing else.

@@ -25,22 +25,24 @@ function iconButton(name, label, click) {
 }
 
 class Controls {
-  constructor(player, tables) {
+  constructor(player) {
     this.player = player;
     this.canvas = el("canvas", {
       class: "stage", tabindex: "0", role: "img", "aria-label": "The collision plane seen from above",
     });
-    this.card = el("dl", { class: "card" });
+    this.card = el("dl", { class: "card", hidden: true });
+    this.cardRows = CARD.map((term) => [el("dt", { text: term }), el("dd")]);
+    this.card.append(...this.cardRows.flat());
     this.notice = el("p", { class: "notice" });
     this.told = el("p", { class: "visually-hidden", role: "status", "aria-live": "polite" });
     const view = el("div", { class: "view" }, this.canvas, this.card, this.#nearness());
-    this.plots = el("div", { class: "plots", role: "group", "aria-label": "Curves over time; press one to look at that time" });
+    this.lines = el("p", { class: "lines", hidden: true }, drawnLine([]), el("span", { text: player.label }), drawnLine([3, 5]), el("span", { class: "other" }));
+    this.plots = el("div", { class: "plots", role: "group", "aria-label": "Curves over time; press one to look at that time" }, this.lines);
     this.roots = [el("div", { class: "desk" }, view, this.plots, this.#transport(), this.#options()), this.notice, this.told];
-    this.tables = tables && { bodies: bodyTable((body) => player.choose(body)), hits: hitTable() };
-    if (tables) {
-      for (const table of Object.values(this.tables)) table.turned = () => this.#fillTables();
-      this.roots.push(el("div", { class: "tables" }, this.tables.bodies.root, this.tables.hits.root));
-    }
+    this.tables = { bodies: bodyTable((body) => player.choose(body)), hits: hitTable() };
+    for (const table of Object.values(this.tables)) table.turned = () => this.#fillTables();
+    this.tablesRoot = el("div", { class: "tables" }, this.tables.bodies.root, this.tables.hits.root);
+    new IntersectionObserver(([entry]) => (this.tablesSeen = entry.isIntersecting)).observe(this.tablesRoot);
   }
 
   #nearness() {
@@ -60,7 +62,8 @@ class Controls {
       input: () => player.moveTo(Number(this.scrubber.value)),
     });
     this.beats = el("canvas", { class: "beats", "aria-hidden": "true" });
-    this.clock = el("output", { class: "clock", "aria-label": "time and iteration" });
+    [this.seconds, this.iteration] = [el("b"), el("span")];
+    this.clock = el("output", { class: "clock", "aria-label": "time and iteration" }, this.seconds, " ", this.iteration);
     this.speed = el("select", { "aria-label": "speed", change: () => (player.speed = Number(this.speed.value)) },
       ...SPEEDS.map((speed) => el("option", { value: speed, text: speed < 1 ? `1⁄${1 / speed} ×` : `${speed} ×` })));
     return el("div", { class: "transport", role: "group", "aria-label": "Playing" },
@@ -96,7 +99,7 @@ class Controls {
     this.scrubber.max = clock.frames - 1;
     this.body.replaceChildren(el("option", { value: "", text: "no body chosen" }),
       ...film.bodies.map(({ name }, i) => el("option", { value: i, text: name })));
-    this.speed.value = player.speed;
+    this.chosen = undefined; // the new list shows nobody
     this.notice.textContent = [
       ...film.head.notes,
       `Places are told to ${measure(film.head.quantum.place, "m")}, velocities to ${measure(film.head.quantum.velocity, "m/s")}.`,
@@ -120,7 +123,9 @@ class Controls {
     const { player } = this;
     const seek = (time) => player.seek(time);
     const panels = panelsOf(film);
-    const of = (make) => other && { ...make(other.film), film: other.film };
+    const of = (make) => other && { ...make(other.film), film: other.film, label: other.label };
+    this.lines.hidden = !other;
+    say(this.lines.lastChild, other?.label ?? "");
     if (!this.curves) {
       this.curves = panels.map(() => new Plot(seek));
       this.ledger = new Plot(seek);
@@ -185,17 +190,19 @@ class Controls {
     const { film } = player;
     const iteration = `iteration ${film.iteration[frame]}`;
     this.scrubber.value = player.position;
-    this.scrubber.setAttribute("aria-valuetext", `${fixed(time, 3)} seconds, ${iteration}`);
-    this.clock.replaceChildren(el("b", { text: `${fixed(time, 3)} s` }), " ", el("span", { text: iteration }));
-    for (const [k, [what]] of SHOWN.entries()) this.shown[k].setAttribute("aria-pressed", player.show[what]);
-    this.follow.setAttribute("aria-pressed", player.following);
-    this.body.value = player.chosen ?? "";
-    this.speed.value = player.speed;
+    mark(this.scrubber, "aria-valuetext", `${fixed(time, 3)} seconds, ${iteration}`);
+    say(this.seconds, `${fixed(time, 3)} s`);
+    say(this.iteration, iteration);
+    for (const [k, [what]] of SHOWN.entries()) mark(this.shown[k], "aria-pressed", player.show[what]);
+    mark(this.follow, "aria-pressed", player.following);
+    if (this.chosen !== player.chosen) this.body.value = player.chosen ?? "";
+    this.chosen = player.chosen;
+    if (Number(this.speed.value) !== player.speed) this.speed.value = player.speed;
     for (const plot of this.#plotsShown) plot.at(time, frame);
     this.#showCard(film, frame);
     clearTimeout(this.later);
     const now = performance.now();
-    if (!player.playing || now - (this.filled ?? 0) > 100) {
+    if (!player.playing || (this.tablesSeen && now - (this.filled ?? 0) > 100)) {
       this.filled = now;
       this.#fillTables();
     }
@@ -204,7 +211,7 @@ class Controls {
 
   #fillTables() {
     const { player } = this;
-    if (!this.tables || !player.film) return;
+    if (!player.film) return;
     showBodies(this.tables.bodies, player.film, player.frame, player.chosen);
     showHits(this.tables.hits, player.film, player.frame);
   }
@@ -215,10 +222,10 @@ class Controls {
     if (chosen === null) return;
     const { name, kind, mass } = film.bodies[chosen];
     const { x, z, angle, vx, vz, spin } = film.state(frame, chosen);
-    const rows = [[name, KINDS[kind]], ["place", `${fixed(x, 3)}, ${fixed(z, 3)} m`], ["angle", `${fixed(angle, 4)} rad`],
-      ["velocity", `${fixed(vx, 3)}, ${fixed(vz, 3)} m/s`], ["speed", `${fixed(Math.hypot(vx, vz), 3)} m/s`],
-      ["spin", `${fixed(spin, 4)} rad/s`], ["mass", kind === "mobile" ? measure(mass, "kg") : "—"]];
-    this.card.replaceChildren(...rows.flatMap(([term, text]) => [el("dt", { text: term }), el("dd", { text })]));
+    say(this.cardRows[0][0], name);
+    const texts = [KINDS[kind], `${fixed(x, 3)}, ${fixed(z, 3)} m`, `${fixed(angle, 4)} rad`, `${fixed(vx, 3)}, ${fixed(vz, 3)} m/s`,
+      `${fixed(Math.hypot(vx, vz), 3)} m/s`, `${fixed(spin, 4)} rad/s`, kind === "mobile" ? measure(mass, "kg") : "—"];
+    texts.forEach((text, k) => say(this.cardRows[k][1], text));
   }
 
   /** Says where one is to who does not see it. */
@@ -230,6 +237,20 @@ class Controls {
     const where = body ? `, ${body.name} at ${fixed(x, 2)}, ${fixed(z, 2)} metres` : "";
     this.told.textContent = `${fixed(time, 3)} seconds, iteration ${film.iteration[frame]}, ${to - from} exchanges${where}`;
   }
+}
+
+const CARD = ["name", "place", "angle", "velocity", "speed", "spin", "mass"];
+
+/** A swatch of a line in the colour of the text. */
+function drawnLine(dash) {
+  const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
+  svg.setAttribute("viewBox", "0 0 26 8");
+  svg.setAttribute("aria-hidden", "true");
+  const line = document.createElementNS("http://www.w3.org/2000/svg", "path");
+  line.setAttribute("d", "M0 4h26");
+  line.setAttribute("stroke-dasharray", dash.join(" "));
+  svg.append(line);
+  return svg;
 }
 
 const THUMB = 16; // width of the scrubber's handle, which keeps its middle off the ends

@@ -13,6 +13,17 @@ function el(name, attributes = {}, ...children) {
   return element;
 }
 
+/** Changes an element's text, if it is another one: what stays the same is not laid out again. */
+function say(element, text) {
+  const node = element.firstChild ?? element.appendChild(document.createTextNode(""));
+  if (node.data !== text) node.data = text;
+}
+
+/** Changes an attribute, if it has another value. */
+function mark(element, name, value) {
+  if (element.getAttribute(name) !== String(value)) element.setAttribute(name, value);
+}
+
 const clamp = (value, low, high) => Math.min(Math.max(value, low), high);
 
 const PREFIXES = [[1e12, "T"], [1e9, "G"], [1e6, "M"], [1e3, "k"], [1, ""], [1e-3, "m"], [1e-6, "µ"], [1e-9, "n"]];
@@ -63,7 +74,7 @@ function fitCanvas(canvas) {
   if (canvas.width !== w || canvas.height !== h) [canvas.width, canvas.height] = [w, h];
   const context = canvas.getContext("2d");
   context.setTransform(ratio, 0, 0, ratio, 0, 0);
-  return { context, width, height };
+  return { context, width, height, ratio };
 }
 
 /** Colours of the page's style, by the names after `--`. */

@@ -8,7 +8,7 @@ use super::film::film_in_text;
 use super::text::{command_line, escaped, filled};
 use crate::outcome::hexadecimal;
 use crate::output::numbers::{counted, duration};
-use crate::recording::Recording;
+use crate::recording::{Recording, Source};
 
 /// A recording as one HTML page.
 ///
@@ -17,24 +17,25 @@ use crate::recording::Recording;
 pub fn page(recording: &Recording) -> Result<String, Error> {
     let films = carrier(&film_in_text(recording, 0)?, "");
     let subtitle = escaped(&subtitle(recording));
-    Ok(assembled(&recording.about.title, &subtitle, &told(recording, None), &films))
+    Ok(assembled(&recording.about.title, &subtitle, &told(recording, None, &[]), &films))
 }
 
 /// Two recordings laid over each other, from the frame of that iteration on: the first drawn full, the second as outlines and
-/// dotted curves. `names` are what they are called.
+/// dotted curves. `names` say what each of them is; on the page they are A and B.
 ///
 /// # Errors
 /// A body that is at no finite place.
 pub fn page_of_two(a: &Recording, b: &Recording, names: [&str; 2], from: u64) -> Result<String, Error> {
-    let films = [carrier(&film_in_text(a, from)?, names[0]), carrier(&film_in_text(b, from)?, names[1])].concat();
-    let title = format!("{} and {}", names[0], names[1]);
+    let labels = [format!("A: {}", names[0]), format!("B: {}", names[1])];
+    let films = [carrier(&film_in_text(a, from)?, &labels[0]), carrier(&film_in_text(b, from)?, &labels[1])].concat();
+    let (title, other) = (&a.about.title, &b.about.title);
+    let title = if title == other { title.clone() } else { format!("{title} and {other}") };
     let subtitle = format!(
-        "{}, from iteration {from}: <b>{}</b> full, <b>{}</b> as outlines and dotted curves",
-        escaped(&a.about.title),
-        escaped(names[0]),
-        escaped(names[1])
+        "from iteration {from}: <b>{}</b>, drawn full; <b>{}</b>, as outlines and dotted curves",
+        escaped(&labels[0]),
+        escaped(&labels[1])
     );
-    let told = [told(a, Some(names[0])), told(b, Some(names[1]))].concat();
+    let told = [told(a, Some('A'), &[]), told(b, Some('B'), &a.about.sources)].concat();
     Ok(assembled(&title, &subtitle, &told, &films))
 }
 
@@ -69,12 +70,13 @@ fn subtitle(recording: &Recording) -> String {
     format!("{bodies}, {iterations} of {}, {collisions}", duration(recording.about.time_step))
 }
 
-/// The sources, and how the run was made, as panels; of one of two runs each begins with its name.
-fn told(recording: &Recording, name: Option<&str>) -> String {
+/// The sources but for those that are on the page already, and how the run was made, as panels; of one of two runs each
+/// begins with its letter.
+fn told(recording: &Recording, letter: Option<char>, shown: &[Source]) -> String {
     let about = &recording.about;
-    let of = name.map(|name| format!("{}: ", escaped(name))).unwrap_or_default();
+    let of = letter.map(|letter| format!("{letter}: ")).unwrap_or_default();
     let mut html = String::from("<div class=\"side\">\n");
-    for (index, source) in about.sources.iter().enumerate() {
+    for (index, source) in about.sources.iter().enumerate().filter(|(_, source)| !shown.contains(source)) {
         let open = if index == 0 { " open" } else { "" };
         let (name, text) = (escaped(&source.name), escaped(&source.text));
         // A line break right after the tag is not part of the text; without it a first empty line would be lost.

@@ -12,16 +12,20 @@ const SHOWN = [["names", "n", "Names"], ["velocities", "v", "Velocities"], ["con
   ["plane", "g", "Plane"], ["trails", "t", "Trails"]];
 
 class Player {
-  /** `keys`: who hears the keyboard, the element itself unless told otherwise; `tables`: whether numbers are listed below. */
-  constructor(element, film = null, { keys = element, tables = true } = {}) {
-    Object.assign(this, { element, film: null, position: 0, playing: false, speed: 1, chosen: null, following: false });
+  /**
+   * `keys`: who hears the keyboard, the element itself unless told otherwise; `tables`: where numbers are listed, below the rest
+   * unless told otherwise; `label`: what the run is called beside one that is laid over it.
+   */
+  constructor(element, film = null, { keys = element, tables = element, label = "this run" } = {}) {
+    Object.assign(this, { element, label, film: null, position: 0, playing: false, speed: 1, chosen: null, following: false });
     this.show = { names: true, velocities: false, contacts: true, plane: true, trails: false };
     this.overlays = new Map();
     this.listeners = new Map();
     this.quantity = 0;
-    this.controls = new Controls(this, tables);
+    this.controls = new Controls(this);
     element.classList.add("choque-player");
     element.replaceChildren(...this.controls.roots);
+    tables.append(this.controls.tablesRoot);
     this.stage = new Stage(this.controls.canvas);
     steer(this.controls.canvas, this.stage.camera, {
       moved: (how) => {

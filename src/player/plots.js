@@ -9,8 +9,8 @@ function panelsOf(film) {
   const curve = (name, key) => ({ name, values: series[key] });
   return [
     { title: "Kinetic energy", unit: "J", curves: [curve("", "kinetic_energy")], zero: true },
-    { title: "Momentum", unit: "kg·m/s", curves: [curve("along X", "momentum_x"), curve("along Z", "momentum_z")] },
-    { title: "Angular momentum", unit: "kg·m²/s", curves: [curve("about the origin", "angular_momentum")] },
+    { title: "Momentum", unit: "kg·m/s", curves: [curve("X", "momentum_x"), curve("Z", "momentum_z")] },
+    { title: "Angular momentum", unit: "kg·m²/s", curves: [curve("", "angular_momentum")] },
     { title: "Deepest overlap", unit: "m", curves: [curve("", "deepest")], zero: true },
   ];
 }
@@ -54,9 +54,17 @@ class Plot {
   show(panel, other, film, span) {
     Object.assign(this, { panel, other, film, span });
     this.heading.textContent = panel.title;
+    this.root.classList.toggle("single", panel.curves.length === 1);
+    this.root.classList.toggle("beside", Boolean(other));
+    // Room for the longest reading, so that none moves another while the film plays.
+    const longest = panel.curves.map(({ name, values }) => `${name} ${measure(-greatest(values), panel.unit)}`.length);
+    this.readings.style.setProperty("--reading", `${0.88 * Math.max(0, ...longest)}ch + 34px`);
     this.entries = panel.curves.map(({ name }) => {
-      const [line, value] = [el("canvas", { class: "swatch", width: 52, height: 16, "aria-hidden": "true" }), el("output")];
-      return { line, value, item: el("li", {}, line, name, value) };
+      const line = el("canvas", { class: "swatch", width: 52, height: 16, "aria-hidden": "true" });
+      const [value, beside] = [el("output"), el("output", { class: "other" })];
+      const same = other?.curves.find((curve) => curve.name === name);
+      const spoken = same ? [el("span", { class: "visually-hidden", text: `, ${other.label}: ` }), beside] : [];
+      return { line, value, beside, same, item: el("li", {}, line, el("span", { class: "curve-name", title: name, text: name }), value, ...spoken) };
     });
     const nothing = el("li", { text: "nothing was booked" });
     this.readings.replaceChildren(...(this.entries.length ? this.entries.map(({ item }) => item) : [nothing]));
@@ -64,8 +72,9 @@ class Plot {
   }
 
   draw() {
-    if (!this.panel || this.canvas.clientWidth === 0) return;
+    if (!this.panel || this.canvas.clientWidth === 0) return void (this.width = 0);
     const { context, width, height } = fitCanvas(this.canvas);
+    this.width = width; // kept: asking for it while the film plays would have the page laid out again
     const colour = paletteOf(this.canvas);
     context.clearRect(0, 0, width, height);
     const curves = [...this.panel.curves, ...(this.other?.curves ?? [])];
@@ -98,17 +107,17 @@ class Plot {
   at(time, frame) {
     const [from, to] = this.span;
     const share = to > from ? (time - from) / (to - from) : 0;
-    const x = GUTTER + clamp(share, 0, 1) * (this.area.clientWidth - GUTTER - EDGE);
+    const x = GUTTER + clamp(share, 0, 1) * (this.width - GUTTER - EDGE);
     this.cursor.style.transform = `translateX(${x}px)`;
     const there = this.other?.film.frameAt(time);
-    for (const [k, { value }] of this.entries.entries()) {
-      const { name, values } = this.panel.curves[k];
-      const same = this.other?.curves.find((curve) => curve.name === name);
-      const beside = same ? ` (dotted ${measure(same.values[there], this.panel.unit)})` : "";
-      value.textContent = measure(values[frame], this.panel.unit) + beside;
+    for (const [k, { value, beside, same }] of this.entries.entries()) {
+      say(value, measure(this.panel.curves[k].values[frame], this.panel.unit));
+      if (same) say(beside, measure(same.values[there], this.panel.unit));
     }
   }
 }
+
+const greatest = (values) => values.reduce((most, value) => (Math.abs(value) > most ? Math.abs(value) : most), 0);
 
 const GUTTER = 58; // pixels left of the curves, for their numbers
 const EDGE = 10;
@@ -152,6 +161,8 @@ function drawGrid(context, colour, { left, right, top, bottom, low, high }, unit
   context.translate(9, (top + bottom) / 2);
   context.rotate(-Math.PI / 2);
   context.textAlign = "center";
+  const wide = context.measureText(scaled).width;
+  if (wide > bottom - top + 10) context.scale((bottom - top + 10) / wide, (bottom - top + 10) / wide);
   context.fillText(scaled, 0, 0);
   context.restore();
 }

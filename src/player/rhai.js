@@ -7,6 +7,14 @@ const RHAI_KEYWORDS = new Set(
 const RHAI_TOKENS =
   /(\/\/[^\n]*|\/\*[^]*?\*\/)|("(?:\\[^]|[^"\\])*"|`(?:\\[^]|[^`\\])*`|'(?:\\[^]|[^'\\])')|(\b(?:0x[\da-f_]+|\d[\d_]*(?:\.\d[\d_]*)?(?:e[+-]?\d+)?)\b)|([a-z_]\w*)/gi;
 
+/** A script with the numbers of its lines, one of them marked. */
+function listing(script, marked = null) {
+  const lines = script.replace(/\n$/, "").split("\n");
+  const numbers = el("div", { class: "numbers", "aria-hidden": "true", text: lines.map((_, i) => i + 1).join("\n") });
+  const mark = marked && el("div", { class: "marked", style: `--line: ${marked}` });
+  return el("div", { class: "listing" }, numbers, el("div", { class: "code" }, lit(script)), ...(mark ? [mark] : []));
+}
+
 /** The script as elements: a span for what is lit, text for the rest. */
 function lit(script) {
   const parts = document.createDocumentFragment();

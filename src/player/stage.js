@@ -25,30 +25,33 @@ function hatch(context, colour, ground, crossed, scale = 0.5) {
 
 const HITS_STAY = 8; // frames for which an exchange is still drawn, ever fainter
 const HITS_TOGETHER = 400; // exchanges drawn at most before those of earlier frames are left out
-const TOGETHER = 48; // things in one path: measured, longer ones take more time than they save
+const TOGETHER = 12; // bodies in one path, and
+const STROKES = 48; // lines: measured, longer paths take more time than they save
+const CROWD = 150; // bodies, or exchanges, from which on lines are one pixel wide: others are drawn ten times slower
 
 class Stage {
   constructor(canvas) {
     this.canvas = canvas;
     this.camera = new Camera();
-    this.styles = null;
+    this.labels = new Labels();
+    this.restyle();
   }
 
   /** Colours are read again: the page is light or dark now. */
   restyle() {
     this.styles = null;
+    this.labels.clear();
   }
 
   #style(context) {
+    if (this.styles) return this.styles;
     const colour = paletteOf(this.canvas);
-    return (this.styles ??= {
-      colour,
-      kinds: {
-        mobile: { fill: colour["mobile-fill"], line: colour.mobile, width: 1.25 },
-        fixed: { fill: hatch(context, colour.fixed, colour["fixed-fill"], false), line: colour.fixed, width: 1.25 },
-        driven: { fill: hatch(context, colour.driven, colour["driven-fill"], true), line: colour.driven, width: 1.75 },
-      },
-    });
+    const kinds = {
+      mobile: { fill: colour["mobile-fill"], line: colour.mobile, width: 1.25 },
+      fixed: { fill: hatch(context, colour.fixed, colour["fixed-fill"], false), line: colour.fixed, width: 1.25 },
+      driven: { fill: hatch(context, colour.driven, colour["driven-fill"], true), line: colour.driven, width: 1.75 },
+    };
+    return (this.styles = { colour, kinds });
   }
 
   resize() {
@@ -58,8 +61,10 @@ class Stage {
 
   /** `scene`: { film, frame, show, chosen, overlays: [{ film, frame, kind, label }] }. */
   draw(scene) {
-    const { context, width, height } = fitCanvas(this.canvas);
+    const { context, width, height, ratio } = fitCanvas(this.canvas);
     const style = this.#style(context);
+    this.pixel = 1 / ratio;
+    this.crowded = this.#countVisible(scene.film, scene.frame) > CROWD;
     context.fillStyle = style.colour.stage;
     context.fillRect(0, 0, width, height);
     this.#plane(context, style.colour, scene.film, scene.show);
@@ -69,7 +74,7 @@ class Stage {
     if (scene.show.velocities) this.#velocities(context, style.colour, scene.film, scene.frame);
     if (scene.show.contacts) this.#contacts(context, style.colour, scene.film, scene.frame);
     if (scene.chosen != null) this.#chosen(context, style.colour, scene);
-    if (scene.show.names) this.#names(context, style.colour, scene);
+    if (scene.show.names) this.labels.draw(context, style.colour, this.camera, this.pixel, this.#named(scene));
   }
 
   /** Calls `visit(body, x, y, cos, sin)` for every body in view, in pixels. */
@@ -86,6 +91,12 @@ class Stage {
     }
   }
 
+  #countVisible(film, frame) {
+    let count = 0;
+    this.#visible(film, frame, () => count++);
+    return count;
+  }
+
   /** Adds a body's rectangles to the path that is being drawn. */
   #trace(context, rects, px, py, c, s) {
     for (const [x0, x1, z0, z1] of rects) {
@@ -97,11 +108,11 @@ class Stage {
     }
   }
 
-  /** Bodies of a kind share paths: a few dozen in each are drawn fastest. */
+  /** Bodies of a kind share paths: a dozen in each are drawn fastest. */
   #bodies(context, style, film, frame) {
     for (const kind of ["fixed", "driven", "mobile"]) {
       const { fill, line, width } = style.kinds[kind];
-      [context.fillStyle, context.strokeStyle, context.lineWidth] = [fill, line, width];
+      [context.fillStyle, context.strokeStyle, context.lineWidth] = [fill, line, this.crowded ? this.pixel : width];
       let traced = 0;
       const paint = () => {
         if (!traced) return;
@@ -136,7 +147,7 @@ class Stage {
       }
     });
     context.strokeStyle = colour.mobile;
-    context.lineWidth = 1;
+    context.lineWidth = this.pixel;
     context.stroke();
   }
 
@@ -147,7 +158,7 @@ class Stage {
       if (film.bodies[body].kind !== "fixed") this.#trace(context, film.bodies[body].rects, px, py, c, s);
     });
     context.setLineDash(kind === "ghost" ? [2, 3] : [7, 3]);
-    context.lineWidth = kind === "ghost" ? 1.75 : 1.5;
+    context.lineWidth = this.crowded ? this.pixel : kind === "ghost" ? 1.75 : 1.5;
     context.strokeStyle = kind === "ghost" ? colour.ghost : colour.other;
     context.stroke();
     context.setLineDash([]);
@@ -209,19 +220,19 @@ class Stage {
     const count = film.bodies.length;
     const all = film.bodies.flatMap((body, i) => (body.kind === "mobile" ? [i] : []));
     const bodies = chosen != null ? [chosen] : all.slice(0, 200);
-    const every = Math.max(1, Math.ceil((frame * bodies.length) / 40000));
-    context.beginPath();
+    const every = Math.max(1, Math.ceil((frame * bodies.length) / 20000));
+    context.strokeStyle = colour.trail;
+    context.lineWidth = chosen != null ? 1.5 : this.pixel;
     for (const body of bodies) {
+      context.beginPath();
       let pen = "moveTo";
       for (let f = 0; f <= frame; f += every) {
         context[pen](...this.camera.toScreen(x[f * count + body], z[f * count + body]));
         pen = "lineTo";
       }
       context.lineTo(...this.camera.toScreen(x[frame * count + body], z[frame * count + body]));
+      context.stroke();
     }
-    context.strokeStyle = colour.trail;
-    context.lineWidth = chosen != null ? 1.5 : 1;
-    context.stroke();
   }
 
   /** Arrows; the fastest body of the run has one of 70 pixels. */
@@ -230,13 +241,18 @@ class Stage {
     if (longest === 0) return;
     const { vx, vz } = film.poses;
     const first = frame * film.bodies.length;
+    context.strokeStyle = colour.velocity;
+    context.lineWidth = this.crowded ? this.pixel : 1.5;
     context.beginPath();
+    let traced = 0;
     this.#visible(film, frame, (body, px, py) => {
       const [dx, dy] = [(vx[first + body] / longest) * 70, (-vz[first + body] / longest) * 70];
-      if (dx * dx + dy * dy > 4) arrow(context, px, py, px + dx, py + dy, 5);
+      if (dx * dx + dy * dy <= 4) return;
+      arrow(context, px, py, px + dx, py + dy, 5);
+      if (++traced % STROKES !== 0) return;
+      context.stroke();
+      context.beginPath();
     });
-    context.strokeStyle = colour.velocity;
-    context.lineWidth = 1.5;
     context.stroke();
   }
 
@@ -249,11 +265,12 @@ class Stage {
     context.strokeStyle = colour.contact;
     let ages = 0;
     while (ages < Math.min(HITS_STAY, frame) && film.hits.first[frame + 1] - film.hits.first[frame - ages - 1] < HITS_TOGETHER) ages++;
+    const many = film.hits.first[frame + 1] - film.hits.first[frame - ages] > CROWD;
     for (let age = ages; age >= 0; age--) {
       context.globalAlpha = 1 - age / (HITS_STAY + 1);
-      context.lineWidth = age === 0 && long > 12 ? 1.75 : 1.25;
+      context.lineWidth = many ? this.pixel : age === 0 && long > 12 ? 1.75 : 1.25;
       const [from, to] = film.hitsIn(frame - age);
-      for (let first = from; first < to; first += TOGETHER) this.#hits(context, film.hits, first, Math.min(first + TOGETHER, to), long);
+      for (let first = from; first < to; first += STROKES) this.#hits(context, film.hits, first, Math.min(first + STROKES, to), long);
     }
     context.globalAlpha = 1;
     this.#touches(context, film, frame, clamp(0.5 * film.typical * this.camera.scale, 1.5, 7));
@@ -276,7 +293,7 @@ class Stage {
   /** Contacts that last: a ring and a line along the normal at each point, of that size in pixels; the line alone where it is small. */
   #touches(context, film, frame, size) {
     const first = frame * film.bodies.length;
-    context.lineWidth = size < 3 ? 0.75 : 1.25;
+    context.lineWidth = size < 3 || this.crowded ? 0.75 * this.pixel : 1.25;
     context.beginPath();
     let traced = 0;
     for (const { a, normal, points } of film.touches[frame]) {
@@ -289,7 +306,7 @@ class Stage {
           context.moveTo(px + 0.4 * size, py);
           context.arc(px, py, 0.4 * size, 0, TAU);
         }
-        if (++traced % TOGETHER === 0) {
+        if (++traced % STROKES === 0) {
           context.stroke();
           context.beginPath();
         }
@@ -313,31 +330,19 @@ class Stage {
     context.lineJoin = "miter";
   }
 
-  /** Names where there is room for them; the chosen body's always. */
-  #names(context, colour, { film, frame, chosen }) {
-    context.font = "12px system-ui, sans-serif";
-    context.textAlign = "center";
-    context.textBaseline = "middle";
-    context.lineWidth = 3;
-    context.strokeStyle = colour.stage;
-    context.fillStyle = colour.ink;
-    context.lineJoin = "round";
-    const taken = new Set();
-    // In a body there is room for its name, or it stands above.
-    const lift = (body) => (film.bodies[body].reach * this.camera.scale < 40 ? film.bodies[body].reach * this.camera.scale * 0.6 + 9 : 0);
-    const write = (body, px, py) => {
-      const name = film.bodies[body].name;
-      context.strokeText(name, px, py);
-      context.fillText(name, px, py);
-    };
+  /** Whose names are wanted, the most wanted first: the chosen body, mobile ones, fixed ones; `lift` is how far above its centre. */
+  #named({ film, frame, chosen }) {
+    const { width, height, scale } = this.camera;
+    const named = [[], [], []];
     this.#visible(film, frame, (body, px, py) => {
-      const cell = `${Math.round(px / 56)} ${Math.round(py / 18)}`;
-      if (body === chosen || film.bodies[body].reach * this.camera.scale < 9 || taken.size > 250 || taken.has(cell)) return;
-      taken.add(cell);
-      write(body, px, py - lift(body));
+      const { name, kind, reach } = film.bodies[body];
+      const isInView = px > 0 && py > 0 && px < width && py < height;
+      if (body !== chosen && (!isInView || reach * scale < 9)) return;
+      // In a large body there is room for its name; it stands above a small one.
+      const lift = reach * scale < 40 ? reach * scale * 0.6 + 9 : 0;
+      named[body === chosen ? 0 : kind === "mobile" ? 1 : 2].push({ name, px, py: py - lift, always: body === chosen });
     });
-    if (chosen != null) this.#visible(film, frame, (body, px, py) => body === chosen && write(body, px, py - lift(body)));
-    context.lineJoin = "miter";
+    return named.flat();
   }
 
   /** The body at a pixel, the smallest first; null where there is none. */

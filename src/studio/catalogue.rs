@@ -12,8 +12,10 @@ const LIBRARY: &str = "lib";
 const PASSED_OVER: [&str; 2] = ["target", "node_modules"];
 /// More scenarios than anyone looks through; a page with all of a disk would help nobody.
 const MOST: usize = 5_000;
-/// Bytes of a script in which its first sentence is looked for.
-const BEGINNING: u64 = 400;
+/// Bytes of a file in which its first sentence is looked for, and what kind of file it is.
+const BEGINNING: u64 = 4096;
+/// What scenarios are: scripts and plain scenes.
+const EXTENSIONS: [&str; 2] = ["rhai", "ron"];
 
 /// The folder that the studio shows.
 #[derive(Clone, Debug)]
@@ -55,8 +57,8 @@ impl Catalogue {
                 let id = if below.is_empty() { name } else { format!("{below}/{name}") };
                 if is_folder {
                     folders.push(id);
-                } else if let Some(path) = self.find(&id) {
-                    entries.push(Entry { about: first_sentence(&path).unwrap_or_default(), id });
+                } else if let Some(about) = self.find(&id).and_then(|path| about(&path)) {
+                    entries.push(Entry { about, id });
                 }
                 if entries.len() >= MOST {
                     folders.clear();
@@ -68,13 +70,13 @@ impl Catalogue {
         entries
     }
 
-    /// The script of that name, if there is one below the folder: no way up, nothing hidden, no link that leads out.
+    /// The scenario of that name, if there is one below the folder: no way up, nothing hidden, no link that leads out.
     pub(super) fn find(&self, id: &str) -> Option<PathBuf> {
         let is_plain =
             |part: Component| matches!(part, Component::Normal(name) if !name.as_encoded_bytes().starts_with(b"."));
         let relative = Path::new(id);
         let is_scenario = !id.contains(['\\', ':', '\0'])
-            && relative.extension().is_some_and(|extension| extension == "rhai")
+            && relative.extension().is_some_and(|extension| EXTENSIONS.iter().any(|known| extension == *known))
             && relative.components().all(is_plain);
         if !is_scenario {
             return None;
@@ -85,13 +87,23 @@ impl Catalogue {
     }
 }
 
-/// The first line of the comment that a script begins with.
-fn first_sentence(path: &Path) -> io::Result<String> {
+/// The first line of the comment that a scenario begins with; nothing of a plan for sweeps, which is no scenario.
+fn about(path: &Path) -> Option<String> {
+    let text = beginning(path).unwrap_or_default(); // who opens it is told why it cannot be read
+    let text = text.trim_start_matches('\u{feff}');
+    let is_plain = path.extension().is_some_and(|extension| extension == "ron");
+    let says_something = |line: &&str| !line.is_empty() && !line.starts_with("//") && !line.starts_with("#!");
+    if is_plain && text.lines().map(str::trim).find(says_something).is_some_and(|line| line.starts_with("Sweep")) {
+        return None;
+    }
+    let first = text.lines().next().unwrap_or_default();
+    Some(first.strip_prefix("//").unwrap_or_default().trim().to_owned())
+}
+
+fn beginning(path: &Path) -> io::Result<String> {
     let mut beginning = Vec::new();
     fs::File::open(path)?.take(BEGINNING).read_to_end(&mut beginning)?;
-    let text = String::from_utf8_lossy(&beginning);
-    let first = text.trim_start_matches('\u{feff}').lines().next().unwrap_or_default();
-    Ok(first.strip_prefix("//").unwrap_or_default().trim().to_owned())
+    Ok(String::from_utf8_lossy(&beginning).into_owned())
 }
 
 #[cfg(test)]
@@ -118,5 +130,22 @@ mod tests {
         }
         assert_eq!(catalogue.find("a/b.rhai"), Some(root.join("a/b.rhai")));
         assert_eq!(catalogue.entries(), [Entry { id: "a/b.rhai".into(), about: "It moves.".into() }]);
+    }
+
+    #[test]
+    fn plain_scenes_are_listed_and_plans_for_sweeps_are_not() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let files = [
+            ("scene.ron", "(title: \"Sweep(\")"),
+            ("told.ron", "// It stands.\n()"),
+            ("plan.ron", "Sweep(scenarios: [])"),
+            ("told_plan.ron", "// What it does.\n//\n\n  Sweep(\n)"),
+        ];
+        for (name, text) in files {
+            fs::write(folder.path().join(name), text).expect("a file");
+        }
+        let listed = Catalogue::new(folder.path().to_owned()).entries();
+        let listed: Vec<(&str, &str)> = listed.iter().map(|entry| (&*entry.id, &*entry.about)).collect();
+        assert_eq!(listed, [("scene.ron", ""), ("told.ron", "It stands.")]);
     }
 }

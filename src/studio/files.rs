@@ -22,6 +22,11 @@ impl Seen {
         self.0.entry(file.to_owned()).or_insert_with(|| look(file));
     }
 
+    /// Whether that file is one of them.
+    pub(super) fn has(&self, file: &Path) -> bool {
+        self.0.contains_key(file)
+    }
+
     /// A few digits that differ when any of the files has changed.
     pub(super) fn stamp(&self) -> String {
         stamp(self.0.iter().map(|(file, seen)| (file.as_path(), *seen)))

@@ -1,6 +1,7 @@
 //! One run for a page: what is there to tune, then the frames as they come, then what it came to.
 
 use std::cell::RefCell;
+use std::fs;
 use std::path::PathBuf;
 use std::rc::Rc;
 use std::time::{Duration, Instant};
@@ -12,6 +13,7 @@ use serde_json::{Value, json};
 use super::expected::{Expected, snapshot_of};
 use super::files::{Seen, digest, watching};
 use super::queue::Answer;
+use super::save::is_script;
 use super::{message, sliders};
 use crate::arguments::ScenarioArguments;
 use crate::clock::now;
@@ -27,6 +29,9 @@ const FIRST_FRAMES: Duration = Duration::from_millis(25);
 const MOST_STATES: u64 = 3_000_000;
 /// Lines that a script may print to the page, and the characters of each.
 const MOST_PRINTED: (usize, usize) = (200, 500);
+
+/// Bytes of a text that is shown around an error.
+const LONGEST_SHOWN: usize = 1 << 20;
 
 /// What a page asks for.
 pub(super) struct Job {
@@ -61,7 +66,8 @@ pub(super) fn run(job: &Job, answer: &Answer, stop: &Stop) -> Seen {
     if let Err(Broken::Error(error)) = desk.play() {
         desk.say_printed();
         desk.say(&json!({
-            "event": "error", "text": error.to_string(), "line": error.line, "stamp": desk.seen.borrow().stamp(),
+            "event": "error", "text": error.to_string(), "line": error.line, "source": desk.pointed_at(&error),
+            "stamp": desk.seen.borrow().stamp(),
         }));
     }
     desk.seen.take()
@@ -184,6 +190,13 @@ impl Desk<'_> {
         .with_hint(Some("choque studio --run-timeout gives it more time; steps(n) makes it shorter".to_owned()))
     }
 
+    /// The whole text that an error points into, for the page to show the line where it stands.
+    fn pointed_at(&self, error: &Diagnostic) -> Option<Value> {
+        let file = error.file.as_ref().filter(|file| error.line.is_some() && self.seen.borrow().has(file))?;
+        let text = fs::read(file).ok().filter(|bytes| bytes.len() <= LONGEST_SHOWN)?;
+        Some(json!({ "name": file.display().to_string(), "text": String::from_utf8_lossy(&text) }))
+    }
+
     fn say(&self, event: &Value) {
         self.answer.send(message::text(event));
     }
@@ -201,7 +214,7 @@ impl Desk<'_> {
         self.say(&json!({
             "event": "scene", "title": scenario.title(), "steps": plan.steps, "time_step": plan.time_step,
             "bodies": world.len(), "sliders": sliders::of(scenario.controls(), scenario.scene()), "dropped": dropped,
-            "notes": notes, "expected": ghosts, "unreadable": unreadable, "text": scenario.text(),
+            "is_script": is_script(&self.job.path), "notes": notes, "expected": ghosts, "unreadable": unreadable, "text": scenario.text(),
             "digest": digest(scenario.text()), "stamp": self.seen.borrow().stamp(),
         }));
     }

@@ -34,6 +34,9 @@ pub(super) enum Refused {
     /// What is shown is not what the file says now.
     #[error("the script has changed on disk since it was run: nothing was written; look at it again and write then")]
     Changed,
+    /// Plain data, which a program has written.
+    #[error("a .ron scene is written by `choque export`: set these values in its script; nothing was written")]
+    Plain,
     /// A number that cannot be placed, shown where it would be.
     #[error("{0}")]
     Unclear(Box<choque_scripting::Diagnostic>),
@@ -49,6 +52,9 @@ const BYTE_ORDER_MARK: &str = "\u{feff}";
 /// # Errors
 /// See [`Refused`]. The file is then as it was.
 pub(super) fn save(path: &Path, run: &str, values: &[(String, f64)], options: &Options) -> Result<Saved, Refused> {
+    if !is_script(path) {
+        return Err(Refused::Plain);
+    }
     let old = fs::read_to_string(path)?;
     let (mark, text) = match old.strip_prefix(BYTE_ORDER_MARK) {
         Some(text) => (BYTE_ORDER_MARK, text),
@@ -64,6 +70,11 @@ pub(super) fn save(path: &Path, run: &str, values: &[(String, f64)], options: &O
         return if is_written { Ok(saved) } else { Err(Refused::Changed) };
     }
     Ok(saved)
+}
+
+/// Whether values can be written into it.
+pub(super) fn is_script(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension == "rhai")
 }
 
 /// The lines of a text that its old version does not have at that place: values are replaced within lines, and settings are

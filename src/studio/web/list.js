@@ -8,6 +8,11 @@ export class List {
 
   constructor() {
     this.root = byId("scenarios");
+    // Where there is little room the list folds away, and again when something has been chosen from it.
+    this.fold = this.root.closest("details");
+    this.narrow = matchMedia("(max-width: 1080px)");
+    this.narrow.addEventListener("change", () => (this.fold.open = !this.narrow.matches));
+    this.fold.open = !this.narrow.matches;
     this.filter = byId("filter");
     this.filter.addEventListener("input", () => this.#show());
     this.filter.addEventListener("keydown", (event) => {
@@ -35,9 +40,10 @@ export class List {
   }
 
   choose(id) {
+    if (this.narrow.matches && id !== this.#chosen) this.fold.open = false;
     this.#chosen = id;
     this.#mark();
-    this.root.querySelector("[aria-current]")?.scrollIntoView({ block: "nearest" });
+    if (this.fold.open) this.root.querySelector("[aria-current]")?.scrollIntoView({ block: "nearest" });
   }
 
   #show() {
@@ -55,7 +61,7 @@ export class List {
       ...(folder ? [el("h3", { text: folder })] : []),
       el("ul", {}, ...scenarios.map(link)),
     ]);
-    const none = this.#scenarios.length ? "Nothing of that name." : "There are no scenarios (.rhai) here yet.";
+    const none = this.#scenarios.length ? "Nothing of that name." : "There are no scenarios (.rhai or .ron) here yet.";
     this.root.replaceChildren(...(parts.length ? parts : [el("p", { class: "faint", text: none })]));
     this.#mark();
   }

@@ -30,8 +30,8 @@ const sliders = new Sliders(() => {
   remember();
   changed();
 });
-const player = new choque.Player(byId("player"), null, { keys: document });
-byId("player").hidden = true;
+const player = new choque.Player(byId("player"), null, { keys: document, tables: byId("tables") });
+showPlayer(false);
 
 /* Runs. */
 
@@ -85,7 +85,7 @@ function hear(event, current) {
     current.ended = true;
     current.waits = false;
     desk.stamp = event.stamp;
-    fail(event.text);
+    fail(event.text, event.source, event.line);
   } else if (event.event === "done") {
     current.ended = true;
     desk.outcome = event.outcome;
@@ -104,7 +104,7 @@ async function show(bytes, current) {
   // Someone who looks at the end should not see the picture jump there and back.
   if (!reaches && waited < FLICKER && desk.film && desk.filmOf === desk.open) return;
   const [first, resumes] = [desk.filmOf !== desk.open, player.playing || current.pausedAtEdge];
-  byId("player").hidden = false;
+  showPlayer(true);
   byId("player").classList.remove("stale");
   if (first) forgetView();
   desk.film = film;
@@ -151,8 +151,7 @@ function showScene(scene) {
     saved(`No longer in the script, or out of its bounds: ${scene.dropped.join(", ")}.`);
   }
   sliders.show(scene.sliders);
-  byId("script").hidden = false;
-  byId("script").querySelector("pre").replaceChildren(choque.lit(scene.text));
+  showSource({ name: "The script", text: scene.text });
   const notes = byId("notes");
   notes.hidden = scene.notes.length === 0;
   notes.querySelector("summary").textContent = scene.notes.length === 1 ? "1 warning" : `${scene.notes.length} warnings`;
@@ -179,12 +178,36 @@ function layGhosts() {
   player.overlay(wanted ? { bodies: desk.scene.expected.bodies } : null, { kind: "ghost", label: "the end in the snapshot" });
 }
 
-function fail(text) {
+/** A text that the run was made from; one with an error is opened there. */
+function showSource({ name: title, text }, line = null) {
+  const [panel, scroll] = [byId("script"), byId("script").querySelector(".scroll")];
+  const openedByError = panel.dataset.line !== undefined;
+  panel.hidden = false;
+  panel.querySelector("summary").textContent = title;
+  scroll.replaceChildren(choque.listing(text, line));
+  if (line !== null) {
+    panel.dataset.line = line;
+    panel.open = true;
+    const tall = scroll.querySelector(".marked").offsetTop - scroll.clientHeight / 2;
+    scroll.scrollTo({ top: tall });
+  } else if (openedByError) {
+    delete panel.dataset.line;
+    panel.open = false;
+  }
+}
+
+function showPlayer(wanted) {
+  byId("player").hidden = !wanted;
+  byId("tables").hidden = !wanted;
+}
+
+function fail(text, source = null, line = null) {
   const error = byId("error");
   error.textContent = text;
   error.hidden = false;
   if (desk.filmOf === desk.open) byId("player").classList.add("stale");
-  else byId("player").hidden = true;
+  else showPlayer(false);
+  if (source) showSource(source, line);
   if (desk.scene?.id !== desk.open) {
     byId("title").textContent = name(desk.open);
     byId("about").textContent = list.about(desk.open);
@@ -201,7 +224,8 @@ function fail(text) {
 
 function showButtons() {
   const any = sliders.moved.size > 0;
-  byId("save").disabled = !any || !desk.scene;
+  byId("save").disabled = !any || !desk.scene?.is_script;
+  byId("save").title = desk.scene && !desk.scene.is_script ? "a .ron scene is written by choque export: set these values in its script" : "";
   byId("reset").disabled = !any;
   byId("keep").disabled = !desk.outcome || desk.filmOf !== desk.open;
   byId("forget").hidden = !desk.kept;

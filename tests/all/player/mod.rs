@@ -217,7 +217,7 @@ fn two_runs_are_laid_over_each_other_from_an_iteration_on() {
         assert_eq!((film.iterations[0], film.iterations.len()), (50, 151));
     }
     assert!(
-        page.contains("<title>mu_l=0.9 and mu_l=0.5</title>")
+        page.contains("<b>A: mu_l=0.9</b>, drawn full; <b>B: mu_l=0.5</b>, as outlines")
             && page.contains("mu_l(0.5)")
             && page.contains("mu_l(0.9)")
     );
