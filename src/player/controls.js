@@ -64,7 +64,10 @@ class Controls {
     this.beats = el("canvas", { class: "beats", "aria-hidden": "true" });
     [this.seconds, this.iteration] = [el("b"), el("span")];
     this.clock = el("output", { class: "clock", "aria-label": "time and iteration" }, this.seconds, " ", this.iteration);
-    this.speed = el("select", { "aria-label": "speed", change: () => (player.speed = Number(this.speed.value)) },
+    this.speed = el("select", { "aria-label": "speed", change: () => {
+      player.speed = Number(this.speed.value);
+      player.steered = true;
+    } },
       ...SPEEDS.map((speed) => el("option", { value: speed, text: speed < 1 ? `1⁄${1 / speed} ×` : `${speed} ×` })));
     return el("div", { class: "transport", role: "group", "aria-label": "Playing" },
       iconButton("first", "to the start (Home)", () => player.step(-Infinity)),

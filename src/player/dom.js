@@ -51,7 +51,7 @@ function measure(value, unit) {
     return `${fixed(value, clamp(3 - Math.floor(Math.log10(Math.abs(value))), 0, 4))} ${unit}`;
   }
   const [factor, scaled] = scaleOf(Math.abs(value), unit);
-  return `${digits(value / factor, 4)} ${scaled}`;
+  return `${digits(value / factor, 4)}${scaled.startsWith("10") ? "·" : " "}${scaled}`;
 }
 
 /** A number in so many digits, with a true minus. */

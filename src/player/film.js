@@ -92,12 +92,15 @@ class Film {
     return [Math.min(...xs), Math.max(...xs), Math.min(...zs), Math.max(...zs)];
   }
 
-  /** Where those bodies are, but for the outermost hundredth of what a thousand looks at most see. */
+  /** Where those bodies are, but for the outermost hundredth of what twenty thousand looks at most see. */
   #usual(bodies) {
     const reach = Math.max(...bodies.map((body) => this.bodies[body].reach));
-    const every = Math.max(1, Math.ceil((bodies.length * this.frames) / 20000));
+    const all = bodies.length * this.frames;
+    const looks = Math.min(all, 20000);
     const [xs, zs] = [[], []];
-    for (let k = 0; k < bodies.length * this.frames; k += every) {
+    for (let look = 0; look < looks; look++) {
+      // Spread by the golden section: even steps could miss whole columns of bodies.
+      const k = looks === all ? look : Math.floor(((look * 0.6180339887498949) % 1) * all);
       const { x, z } = this.state(Math.floor(k / bodies.length), bodies[k % bodies.length]);
       xs.push(x);
       zs.push(z);

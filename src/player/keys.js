@@ -48,12 +48,14 @@ function chooseNext(player, by) {
 }
 
 function changeSpeed(player, by) {
+  player.steered = true;
   player.speed = SPEEDS[clamp(SPEEDS.indexOf(player.speed) + by, 0, SPEEDS.length - 1)];
   player.redraw();
 }
 
 function pan(player, dx, dy) {
   player.following = false;
+  player.steered = true;
   player.stage.camera.pan(dx, dy);
   player.redraw();
 }

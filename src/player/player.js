@@ -2,6 +2,7 @@
 //
 //   const player = new choque.Player(element, film);     film = await choque.unpack(bytes), or null for later
 //   player.load(film)                                     another film: time, zoom, chosen body and playing stay
+//   player.load(film, { isMore: true })                   more of the film before: all of it is in view until someone steers
 //   player.overlay(film, { kind: "B", label })            another run over this one; null takes it away
 //   player.overlay({ bodies: [{ name, x, z, angle }] }, { kind: "ghost", label })     where bodies should be
 //   player.play()  .pause()  .seek(time)  .time  .frame  .playing  .choose(name)  .follow(true)
@@ -22,6 +23,7 @@ class Player {
     this.overlays = new Map();
     this.listeners = new Map();
     this.quantity = 0;
+    this.steered = false; // whether someone has looked nearer, or set the speed
     this.controls = new Controls(this);
     element.classList.add("choque-player");
     element.replaceChildren(...this.controls.roots);
@@ -29,6 +31,7 @@ class Player {
     this.stage = new Stage(this.controls.canvas);
     steer(this.controls.canvas, this.stage.camera, {
       moved: (how) => {
+        this.steered = true;
         if (how === "pan") this.follow(false);
         this.redraw();
       },
@@ -41,20 +44,30 @@ class Player {
   }
 
   /** Shows a film; of the one before, the time, the view, the chosen body and whether it plays are kept. */
-  load(film) {
+  load(film, { isMore = false } = {}) {
     const before = this.film;
     const [time, name] = [before ? this.time : film.times[0], before?.bodies[this.chosen]?.name];
     this.film = film;
     this.chosen = film.index.get(name) ?? null;
     this.following &&= this.chosen !== null;
     this.stage.resize();
-    if (!before) {
-      this.stage.camera.fit(film.bounds);
-      this.speed = SPEEDS.findLast((speed) => film.duration / speed >= 2 || speed === SPEEDS[0]);
-      this.speed = Math.min(this.speed, 1);
-    }
+    if (!before || (isMore && !this.steered)) this.#present();
     this.#changed();
     this.seek(time);
+  }
+
+  /** All of the film in view, at a speed at which it lasts a while. */
+  #present() {
+    const { film } = this;
+    if (!this.following) this.stage.camera.fit(film.bounds);
+    this.speed = Math.min(1, SPEEDS.findLast((speed) => film.duration / speed >= 2 || speed === SPEEDS[0]));
+  }
+
+  /** A film that has nothing to do with the one before is shown as if it were the first. */
+  present() {
+    this.steered = false;
+    this.#present();
+    this.redraw();
   }
 
   /** Lays another run, or a state that bodies should be in, over the film; null takes it away. */
@@ -156,6 +169,7 @@ class Player {
   }
 
   zoom(factor) {
+    this.steered = true;
     this.stage.camera.zoom(factor);
     this.redraw();
   }

@@ -109,9 +109,10 @@ async function show(bytes, current) {
   if (first) forgetView();
   desk.film = film;
   desk.filmOf = desk.open;
-  player.load(film);
+  player.load(film, { isMore: current.presents });
   if (first) {
-    player.fit();
+    current.presents = true;
+    player.present();
     player.seek(0);
     if (!matchMedia("(prefers-reduced-motion: reduce)").matches) player.play();
   } else if (!resumes) player.seek(Math.min(current.end, film.times.at(-1)));
