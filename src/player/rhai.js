@@ -11,8 +11,12 @@ const RHAI_TOKENS =
 function listing(script, marked = null) {
   const lines = script.replace(/\n$/, "").split("\n");
   const numbers = el("div", { class: "numbers", "aria-hidden": "true", text: lines.map((_, i) => i + 1).join("\n") });
-  const mark = marked && el("div", { class: "marked", style: `--line: ${marked}` });
-  return el("div", { class: "listing" }, numbers, el("div", { class: "code" }, lit(script)), ...(mark ? [mark] : []));
+  const page = el("div", { class: "listing" }, numbers, el("div", { class: "code" }, lit(script)));
+  if (marked) {
+    page.append(el("div", { class: "marked" }));
+    page.lastChild.style.setProperty("--line", marked); // as an attribute a page's rules would forbid it
+  }
+  return page;
 }
 
 /** The script as elements: a span for what is lit, text for the rest. */

@@ -24,7 +24,7 @@ use crate::recording::recorder::{InMemory, Recorder, Settings};
 
 /// The first frames are sent after that time, and again whenever as much time has passed as until then: a page shows something
 /// at once, and all that is sent twice is as much as is sent once.
-const FIRST_FRAMES: Duration = Duration::from_millis(25);
+const FIRST_FRAMES: Duration = Duration::from_millis(12);
 /// States of bodies that are kept of a run, 48 bytes each; of a longer one every second frame, or every third …
 const MOST_STATES: u64 = 3_000_000;
 /// Lines that a script may print to the page, and the characters of each.

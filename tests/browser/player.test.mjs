@@ -5,7 +5,7 @@ import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
-import { choque, missing, openBrowser, screenshot } from "./browser.mjs";
+import { choque, crowded, missing, numberOf, openBrowser, screenshot } from "./browser.mjs";
 
 const EVIL = "</script><img src=x onerror=document.documentElement.dataset.pwned=1>";
 const PILEUP = "scenarios/vehicles/pileup_12.rhai";
@@ -35,9 +35,9 @@ after(async () => {
 });
 
 /** A scenario rendered and opened from its file, with nothing of a network; whatever it asks for or throws is an error. */
-async function opened(scenario, { width = 1400, height = 900, dark = false, set = [] } = {}) {
+async function opened(scenario, { width = 1400, height = 900, dark = false, call = ["render"] } = {}) {
   const file = join(folder, `${Math.random().toString(36).slice(2)}.html`);
-  choque("render", scenario, ...set, "-o", file);
+  choque(call[0], scenario, ...call.slice(1), "-o", file);
   const page = await browser.newPage();
   page.troubles = [];
   page.on("pageerror", (error) => page.troubles.push(error.message));
@@ -172,6 +172,31 @@ test("load keeps the time, the view and the chosen body; overlays come and go", 
     player.overlay(null, { kind: "B" });
   });
   assert.ok(!(await legend()).includes("the snapshot"));
+  await closed(page);
+});
+
+test("two runs are read side by side, in columns of any width", { skip: missing }, async () => {
+  const page = await opened(PILEUP, { call: ["diff", PILEUP, "--set-b", "mu_l=0.8"] });
+  await page.evaluate(() => player.seek(2));
+  await drawn(page);
+  assert.deepEqual(await page.$$eval(".plots .lines span", (spans) => spans.map((span) => span.textContent[0])), ["A", "B"]);
+  const readings = await page.$$eval(".plot", (plots) => plots.map((plot) => [...plot.querySelectorAll("output")].map((output) => output.textContent)));
+  const told = await page.evaluate(() => {
+    const at = (film, key) => film.series[key][film.frameAt(2)];
+    const films = [player.film, player.overlays.get("B").over];
+    return ["kinetic_energy", "momentum_x", "angular_momentum", "deepest"].map((key) => films.map((film) => at(film, key)));
+  });
+  for (const [k, [a, b]] of told.entries()) {
+    assert.notEqual(a, b);
+    for (const [text, number] of [[readings[k][0], a], [readings[k][1], b]]) {
+      assert.ok(Math.abs(numberOf(text) - number) < 1e-3 * Math.abs(number), `${text} is not ${number}`);
+    }
+  }
+  for (const width of [320, 360, 400, 860, 980, 1100, 1400]) {
+    await page.setViewport({ width, height: 900 });
+    await drawn(page);
+    assert.deepEqual(await crowded(page), [], `at ${width} pixels`);
+  }
   await closed(page);
 });
 

@@ -6,7 +6,7 @@ import { cpSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } f
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
-import { ROOT, choqueBinary, missing, openBrowser, screenshot } from "./browser.mjs";
+import { ROOT, choque, choqueBinary, crowded, missing, numberOf, openBrowser, screenshot } from "./browser.mjs";
 
 const PILEUP = "vehicles/pileup_12.rhai";
 let browser, studio, folder, address;
@@ -85,6 +85,44 @@ test("scenarios are listed, found and opened", { skip: missing }, async () => {
   await closed(page);
 });
 
+test("a plain scene is played and tuned, but not written into", { skip: missing }, async () => {
+  choque("export", "scenarios/vehicles/two_car_crash.rhai", "-o", join(folder, "scenarios/plain.ron"));
+  const page = await opened("plain.ron");
+  assert.equal((await page.$$('#scenarios a[data-id="plain.ron"]')).length, 1);
+  assert.equal((await page.$$('#scenarios a[data-id^="sweeps/"]')).length, 0, "a plan for sweeps is no scenario");
+  const before = await text(page, "#numbers .digest td");
+  await move(page, "mu_l", 0.3);
+  assert.notEqual(await text(page, "#numbers .digest td"), before);
+  assert.ok(await page.$eval("#save", (button) => button.disabled && /script/.test(button.title)));
+  assert.deepEqual(await page.$$eval(".slider", (rows) => rows.map((row) => row.dataset.name)), ["mu_l", "mu_a", "epsilon"]);
+  await closed(page);
+});
+
+test("all of a scene is in view, at the speed of the whole of it", { skip: missing }, async () => {
+  const page = await opened(PILEUP);
+  assert.equal(await page.$eval(".transport select", (select) => select.value), "1");
+  await page.focus(".choque-player .stage");
+  const rows = () => page.$$eval("#tables .table:first-child tbody tr", (all) => all.map((row) => row.textContent));
+  const [first] = [await rows(), await page.keyboard.press("End")];
+  await page.waitForFunction(() => parseFloat(document.querySelector(".choque-player .clock").textContent) === 5);
+  assert.notDeepEqual(await rows(), first);
+  await closed(page);
+});
+
+test("a script that comes to no end stops, and the page and others live", { skip: missing }, async () => {
+  writeFileSync(join(folder, "scenarios/endless.rhai"), "mobile(\"a\").rect(1, 1);\nfn on_step(world) { loop { } }\n");
+  const page = await browser.newPage();
+  await page.goto(`${address}#endless.rhai`);
+  const other = await opened(PILEUP);
+  await move(other, "mu_l", 0.7);
+  await closed(other);
+  await settled(page);
+  assert.match(await text(page, "#error"), /came to no end/);
+  await page.evaluate(() => (location.hash = "#new.rhai"));
+  await page.waitForFunction(() => document.getElementById("error").hidden);
+  await page.close();
+});
+
 test("a run plays, by pointer and by keyboard", { skip: missing }, async () => {
   const page = await opened(PILEUP);
   const clock = () => page.$eval(".choque-player .clock", (element) => parseFloat(element.textContent));
@@ -109,6 +147,7 @@ test("a moved slider gives other numbers, and its first frames come at once", { 
   const firsts = [];
   for (let speed = 15; speed <= 28; speed++) {
     await move(page, "speed", speed);
+    await picture(page);
     firsts.push(await page.evaluate(() => Number(document.documentElement.dataset.first)));
   }
   firsts.sort((a, b) => a - b);
@@ -134,6 +173,15 @@ test("two settings lie over each other, and the snapshot's end as ghosts", { ski
   assert.equal((await page.$$("#numbers thead th")).length, 2);
   const ghosts = await picture(page);
   await screenshot(page, "studio-ghosts");
+  // The readings of both runs are those of their ends, as the table has them.
+  const [now, a] = await page.$$eval("#numbers tbody tr:first-child td", (cells) => cells.map((cell) => Number(cell.textContent.replace("−", "-"))));
+  const [run, kept] = (await page.$$eval(".plot:nth-of-type(1) output", (outputs) => outputs.map((output) => output.textContent))).map(numberOf);
+  assert.ok(now !== a && Math.abs(run - now) < 1e-3 * now && Math.abs(kept - a) < 1e-3 * a, `${[run, now, kept, a]}`);
+  for (const width of [1440, 1100, 400]) {
+    await page.setViewport({ width, height: 900 });
+    await picture(page);
+    assert.deepEqual(await crowded(page), [], `at ${width} pixels`);
+  }
   await click(page, "#ghosts input");
   assert.notEqual(await picture(page), ghosts);
   assert.ok(!(await text(page, ".choque-player .legend")).includes("snapshot"));
@@ -149,6 +197,8 @@ test("an error is shown with its line and caret, and goes when the file is put r
   const error = await text(page, "#error");
   assert.ok(await shows(page, "#error"));
   assert.match(error, /mistaken\.rhai:2:13\n.*\n2 \| mobile\("b"\)\.rect\("wide", 1\);\n +\| {13}\^\^\^\^/);
+  assert.equal(await page.$eval("#script .marked", (line) => line.style.getPropertyValue("--line").trim()), "2");
+  assert.ok(await page.$eval("#script", (panel) => panel.open && panel.textContent.includes("rect(\"wide\", 1)")));
   await screenshot(page, "studio-error");
   writeFileSync(file, "mobile(\"a\").rect(1, 1);\nmobile(\"b\").rect(2, 1);\n");
   await page.waitForFunction(() => document.getElementById("error").hidden);
@@ -171,7 +221,19 @@ test("sliders are written into the script, and nothing that changed meanwhile is
   await page.waitForSelector("#saved.done");
   assert.equal(readFileSync(file, "utf8"), script.replace("0.5", "0.75").replace("8.0", "12.5"));
   await page.waitForFunction(() => document.getElementById("save").disabled);
-  await closed(page);
+  // Saved by an editor in the moment before: nothing is written, the slider stays, and can be written once more.
+  await move(page, "push", 20);
+  const edited = `// By hand.\n${readFileSync(file, "utf8")}`;
+  writeFileSync(file, edited);
+  await click(page, "#save");
+  await page.waitForFunction(() => /has changed on disk|Written/.test(document.getElementById("saved").textContent));
+  await page.waitForFunction(() => document.getElementById("script").textContent.includes("By hand."));
+  await settled(page);
+  if (readFileSync(file, "utf8") === edited) await click(page, "#save");
+  await page.waitForSelector("#saved.done");
+  assert.equal(readFileSync(file, "utf8"), edited.replace("12.5", "20.0"));
+  assert.ok(page.troubles.every((trouble) => trouble.includes("409")), `${page.troubles}`);
+  await page.close();
 });
 
 test("the desk is read in the dark and on a narrow screen, and has nothing to scroll sideways", { skip: missing }, async () => {

@@ -99,10 +99,10 @@ function hear(event, current) {
 async function show(bytes, current) {
   const film = await choque.unpack(bytes);
   if (desk.run !== current) return;
-  const waited = performance.now() - current.since;
+  const waited = () => performance.now() - current.since;
   const reaches = film.times.at(-1) >= Math.min(current.end, desk.scene.steps * desk.scene.time_step * (1 - 1e-9));
   // Someone who looks at the end should not see the picture jump there and back.
-  if (!reaches && waited < FLICKER && desk.film && desk.filmOf === desk.open) return;
+  if (!reaches && waited() < FLICKER && desk.film && desk.filmOf === desk.open) return;
   const [first, resumes] = [desk.filmOf !== desk.open, player.playing || current.pausedAtEdge];
   showPlayer(true);
   byId("player").classList.remove("stale");
@@ -120,7 +120,7 @@ async function show(bytes, current) {
     current.pausedAtEdge = false;
     player.play();
   }
-  if (current.waits) document.documentElement.dataset.first = waited.toFixed(1);
+  if (current.waits) requestAnimationFrame(() => (document.documentElement.dataset.first = waited().toFixed(1))); // when it is drawn
   current.waits = false;
 }
 
