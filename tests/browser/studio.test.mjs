@@ -200,6 +200,8 @@ test("an error is shown with its line and caret, and goes when the file is put r
   assert.equal(await page.$eval("#script .marked", (line) => line.style.getPropertyValue("--line").trim()), "2");
   assert.ok(await page.$eval("#script", (panel) => panel.open && panel.textContent.includes("rect(\"wide\", 1)")));
   await screenshot(page, "studio-error");
+  await page.setViewport({ width: 1100, height: 420 });
+  assert.ok(await page.$eval("#error", (box) => box.scrollHeight <= box.clientHeight), "all of it is seen on a low screen");
   writeFileSync(file, "mobile(\"a\").rect(1, 1);\nmobile(\"b\").rect(2, 1);\n");
   await page.waitForFunction(() => document.getElementById("error").hidden);
   await settled(page);
