@@ -126,8 +126,8 @@ fn every_link_in_the_book_leads_somewhere() {
         let name = page.file_name().expect("a name").to_string_lossy();
         assert!(name == "SUMMARY.md" || summary.contains(&format!("({name})")), "{name} is in the summary");
         for target in text.split("](").skip(1).filter_map(|rest| rest.split(')').next()) {
-            let is_local =
-                !target.contains("://") && Path::new(target).extension().is_some_and(|e| e == "md" || e == "svg" || e == "png");
+            let is_local = !target.contains("://")
+                && Path::new(target).extension().is_some_and(|e| e == "md" || e == "svg" || e == "png");
             assert!(!is_local || root().join("docs/book/src").join(target).exists(), "{name}: {target}");
         }
     }
