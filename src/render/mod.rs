@@ -30,7 +30,7 @@ pub struct RenderArguments {
     /// Where to: its extension says what is made, svg, png, gif or html
     #[arg(short, long, value_name = "PICTURE")]
     pub output: PathBuf,
-    /// The moment shown [s]; the end unless it is said
+    /// The moment shown, in seconds; the end unless it is said
     #[arg(long, value_name = "TIME", value_parser = time, allow_negative_numbers = true, conflicts_with = "iteration")]
     pub at: Option<f64>,
     /// The moment shown, by the iterations finished
