@@ -1,68 +1,97 @@
-//! The stage of a difference where contacts last: an iteration advances, finds and solves together, so the stage is read off from
-//! who touched whom.
+//! The stage of a difference where an iteration is not seen from inside: contacts that last are solved together with finding and
+//! advancing, and continuous motion holds them with forces that no exchange tells of. The stage is read off from who touched whom, and
+//! from what the premises leave it to come from.
 
-use choque_engine::scene::{Detection, ExchangeRule, MotionRule};
+use choque_engine::scene::Kind;
 
-use super::parting::{Difference, Stage, first_differing, pair, strike};
+use super::near;
+use super::parting::{Difference, Stage, pair, strike};
+use super::premises::Otherwise;
 use crate::recording::{Frame, Recording};
 
-/// Whether contacts last in this run: stepped impulses.
-pub(super) fn lasts(recording: &Recording) -> bool {
-    let settings = &recording.about.settings;
-    settings.exchange == ExchangeRule::Impulse
-        && settings.motion == MotionRule::Stepped
-        && settings.detection != Some(Detection::Vertices)
+/// An iteration of both: the frames it began with, which are alike, and those it ended with.
+#[derive(Clone, Copy)]
+pub(super) struct Iteration<'a> {
+    pub(super) runs: [&'a Recording; 2],
+    pub(super) before: [&'a Frame; 2],
+    pub(super) now: [&'a Frame; 2],
+    pub(super) otherwise: Otherwise,
 }
 
-/// Whether bodies that nothing touches move otherwise.
-pub(super) fn flies_otherwise(a: &Recording, b: &Recording) -> bool {
-    let flight = |recording: &Recording| {
-        let settings = &recording.about.settings;
-        (recording.about.time_step, settings.gravity, settings.drag)
-    };
-    flight(a) != flight(b)
-}
+impl Iteration<'_> {
+    /// What differed first.
+    pub(super) fn stage(&self) -> Option<Difference> {
+        self.flown().or_else(|| {
+            let found = if self.otherwise.finds || !self.otherwise.hands { self.found() } else { None };
+            found.or_else(|| self.handed())
+        })
+    }
 
-pub(super) fn stage_of([a, b]: [&Frame; 2], flies_otherwise: bool) -> Option<Difference> {
-    let differing = |body: &u32| !a.states[*body as usize].is(&b.states[*body as usize]);
-    let first = first_differing(&a.states, &b.states)?;
-    let of = |stage, body: u32| Difference::of_body(stage, body, [&a.states[body as usize], &b.states[body as usize]]);
-    let mut bodies = (first..a.states.len() as u32).filter(differing);
-    let alone = |body: &u32| met(a, *body).is_none() && met(b, *body).is_none();
-    if let Some(body) = bodies.find(|body| flies_otherwise || alone(body)) {
-        return Some(of(Stage::Advance, body));
+    pub(super) fn differing(&self) -> impl Iterator<Item = u32> {
+        let [a, b] = self.now;
+        (0..a.states.len().min(b.states.len()) as u32)
+            .filter(|body| !a.states[*body as usize].is(&b.states[*body as usize]))
     }
-    if let Some(found) = struck([a, b]) {
-        return Some(found);
-    }
-    let meeting = met(a, first).or(met(b, first));
-    if let Some([one, other]) = met(a, first).zip(met(b, first)).map(|(a, b)| [a, b]).filter(|[a, b]| a != b) {
-        let what = format!("{} touches it first only in {}", "another body", if one < other { "A" } else { "B" });
-        return Some(Difference::of_pair(Stage::Detect, one.min(other), what));
-    }
-    if met(a, first).is_none() != met(b, first).is_none() {
-        let side = if met(a, first).is_some() { "A" } else { "B" };
-        return Some(Difference::of_pair(Stage::Detect, meeting?, format!("only in {side} they touch")));
-    }
-    let moves = |frame: &Frame| frame.states[first as usize].to_array()[3..].to_vec();
-    let stage = if moves(a) == moves(b) { Stage::Relocate } else { Stage::Exchange };
-    Some(Difference { pair: meeting, ..of(stage, first) })
-}
 
-/// The exchanges: the first pair that only one has, or that is found otherwise. What they came to is told at the end only.
-fn struck([a, b]: [&Frame; 2]) -> Option<Difference> {
-    let at = |i: usize| (a.hits.get(i), b.hits.get(i));
-    (0..a.hits.len().max(b.hits.len())).find_map(|i| match at(i) {
-        (Some(one), Some(other)) => strike(one, other).filter(|found| found.stage == Stage::Detect),
-        (Some(only), None) => Some(Difference::of_pair(Stage::Detect, pair(only), "only in A they meet")),
-        (None, Some(only)) => Some(Difference::of_pair(Stage::Detect, pair(only), "only in B they meet")),
-        (None, None) => None,
-    })
-}
+    pub(super) fn of_body(&self, stage: Stage, body: u32) -> Difference {
+        Difference::of_body(stage, body, self.now.map(|frame| &frame.states[body as usize]))
+    }
 
-/// The first pair of an iteration that a body was in.
-fn met(frame: &Frame, body: u32) -> Option<[u32; 2]> {
-    let hits = frame.hits.iter().map(pair);
-    let touches = frame.touches.iter().map(|touch| [touch.a, touch.b]);
-    hits.chain(touches).find(|pair| pair.contains(&body))
+    /// Nothing is ever handed to a fixed body, nor to one that touches nothing.
+    pub(super) fn flown(&self) -> Option<Difference> {
+        let flown = |body: &u32| self.otherwise.flies || self.is_fixed(*body) || self.met(*body).is_none();
+        self.differing().find(flown).map(|body| self.of_body(Stage::Advance, body))
+    }
+
+    pub(super) fn is_fixed(&self, body: u32) -> bool {
+        self.runs[0].bodies.get(body as usize).is_some_and(|body| body.kind == Kind::Fixed)
+    }
+
+    /// A pair that only one of them finds, or finds otherwise.
+    fn found(&self) -> Option<Difference> {
+        let [a, b] = self.now;
+        let meets = |frame: &Frame, sought: [u32; 2]| {
+            frame.listed.contains(&sought)
+                || frame.hits.iter().any(|hit| pair(hit) == sought)
+                || frame.touches.iter().any(|touch| [touch.a, touch.b] == sought)
+        };
+        let only = |one: &Frame, other: &Frame| {
+            let touches = one.touches.iter().map(|touch| [touch.a, touch.b]);
+            one.hits.iter().map(pair).chain(touches).find(|pair| !meets(other, *pair))
+        };
+        let only = match (only(a, b), only(b, a)) {
+            (Some(a), Some(b)) if b < a => Some(("B", b)),
+            (Some(a), _) => Some(("A", a)),
+            (None, b) => b.map(|b| ("B", b)),
+        };
+        if let Some((side, pair)) = only {
+            return Some(Difference::of_pair(Stage::Detect, pair, format!("only in {side} they touch")));
+        }
+        a.hits.iter().find_map(|one| {
+            let other = b.hits.iter().find(|other| pair(other) == pair(one))?;
+            strike(one, other).filter(|found| found.stage == Stage::Detect)
+        })
+    }
+
+    /// All was found alike.
+    pub(super) fn handed(&self) -> Option<Difference> {
+        let body = self.differing().find(|body| !self.is_fixed(*body))?;
+        let moves = |frame: &Frame| frame.states[body as usize].to_array()[3..].to_vec();
+        let stage = if moves(self.now[0]) == moves(self.now[1]) { Stage::Relocate } else { Stage::Exchange };
+        Some(Difference { pair: self.met(body), ..self.of_body(stage, body) })
+    }
+
+    /// The first pair that a body was in: of exchanges, of contacts that last, of bodies that stand at each other.
+    pub(super) fn met(&self, body: u32) -> Option<[u32; 2]> {
+        let hits = |frame: &Frame| frame.hits.iter().map(pair).find(|pair| pair.contains(&body));
+        let touches = |frame: &Frame| {
+            let mut pairs = frame.touches.iter().map(|touch| [touch.a, touch.b]);
+            pairs.find(|pair| pair.contains(&body))
+        };
+        let [a, b] = self.now;
+        let told = hits(a).or_else(|| hits(b)).or_else(|| touches(a)).or_else(|| touches(b));
+        told.or_else(|| self.before.iter().find_map(|frame| touches(frame)))
+            .or_else(|| near::touching(self.runs[0], self.before[0], body))
+            .or_else(|| [0, 1].into_iter().find_map(|side| near::touching(self.runs[side], self.now[side], body)))
+    }
 }

@@ -1,19 +1,19 @@
 //! How far two runs are apart, from where they part to where the shorter one ends.
 
 use super::parting::common;
-use crate::recording::Recording;
+use crate::recording::{Body, Frame, Recording, State};
 
 /// How far apart two runs are at a moment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Apart {
-    /// Iterations finished.
+    /// Iterations finished, in A.
     pub iteration: u64,
     /// In A \[s\].
     pub time: f64,
-    /// The greatest distance between a body's two places \[m\].
+    /// The greatest distance between the two places of a corner of a body \[m\].
     pub distance: f64,
-    /// The body it is of.
-    pub body: u32,
+    /// The body it is of: the first that differs where none is displaced; `None` where none differs.
+    pub body: Option<u32>,
     /// How many bodies are not the same to the last bit.
     pub bodies: usize,
     /// Kinetic energy of B less that of A \[J\].
@@ -23,24 +23,72 @@ pub struct Apart {
 /// Rows of the table of growth at most.
 const ROWS: usize = 14;
 
-/// The distance at every moment that both have, from an iteration on.
+/// Moments that count as one when the time steps are not the same: relative to the time.
+const SAME_TIME: f64 = 1e-9;
+
+/// Fewer moments at the same time say nothing of growth.
+const FEWEST: usize = 3;
+
+/// The distance at every moment that both have, from an iteration of A on.
 #[must_use]
 pub fn growth(a: &Recording, b: &Recording, from: u64) -> Vec<Apart> {
-    let moments = common(a, b).into_iter().map(|[i, j]| (&a.frames[i], &b.frames[j]));
-    let apart = |(one, other): (&crate::recording::Frame, &crate::recording::Frame)| {
-        let places = one.states.iter().zip(&other.states).enumerate();
-        let distances = places.map(|(body, (a, b))| (body, libm::hypot(a.x - b.x, a.z - b.z)));
-        let (body, distance) = distances.fold((0, 0.0), |most, next| if next.1 > most.1 { next } else { most });
-        Apart {
-            iteration: one.iteration,
-            time: one.time,
-            distance,
-            body: body as u32,
-            bodies: one.states.iter().zip(&other.states).filter(|(a, b)| !a.is(b)).count(),
-            energy: other.totals.kinetic_energy - one.totals.kinetic_energy,
+    let moments = moments(a, b).into_iter().map(|[i, j]| (&a.frames[i], &b.frames[j]));
+    let moments = moments.filter(|(frame, _)| frame.iteration >= from);
+    moments.map(|(one, other)| apart(&a.bodies, one, other)).collect()
+}
+
+/// Frames that are compared: of the same time, where runs of several time steps have such; else of the same iteration.
+fn moments(a: &Recording, b: &Recording) -> Vec<[usize; 2]> {
+    by_time(a, b).unwrap_or_else(|| common(a, b))
+}
+
+/// Of runs whose time steps are not the same, frames of the same time, if there are enough.
+pub(super) fn by_time(a: &Recording, b: &Recording) -> Option<Vec<[usize; 2]>> {
+    if a.about.time_step == b.about.time_step {
+        return None;
+    }
+    let mut pairs = Vec::new();
+    let mut others = b.frames.iter().enumerate().peekable();
+    for (at, frame) in a.frames.iter().enumerate() {
+        let slack = SAME_TIME * frame.time.abs().max(a.about.time_step);
+        while others.next_if(|(_, other)| other.time < frame.time - slack).is_some() {}
+        if let Some((other, _)) = others.next_if(|(_, other)| other.time <= frame.time + slack) {
+            pairs.push([at, other]);
         }
-    };
-    moments.filter(|(frame, _)| frame.iteration >= from).map(apart).collect()
+    }
+    (pairs.len() > FEWEST).then_some(pairs)
+}
+
+fn apart(bodies: &[Body], one: &Frame, other: &Frame) -> Apart {
+    let states = one.states.iter().zip(&other.states).enumerate();
+    let differing: Vec<(u32, [&State; 2])> =
+        states.filter(|(_, (a, b))| !a.is(b)).map(|(body, (a, b))| (body as u32, [a, b])).collect();
+    let mut found = (0.0, differing.first().map(|(body, _)| *body));
+    for (body, [a, b]) in &differing {
+        let distance = bodies.get(*body as usize).map_or(0.0, |body| displaced(body, [a, b]));
+        if distance > found.0 {
+            found = (distance, Some(*body));
+        }
+    }
+    Apart {
+        iteration: one.iteration,
+        time: one.time,
+        distance: found.0,
+        body: found.1,
+        bodies: differing.len(),
+        energy: other.totals.kinetic_energy - one.totals.kinetic_energy,
+    }
+}
+
+/// The greatest distance between the two places of a corner; of the centre where nothing is turned, or there are no corners.
+fn displaced(body: &Body, [a, b]: [&State; 2]) -> f64 {
+    let apart = |[a, b]: [[f64; 2]; 2]| libm::hypot(b[0] - a[0], b[1] - a[1]);
+    let centre = apart([[a.x, a.z], [b.x, b.z]]);
+    if a.angle.to_bits() == b.angle.to_bits() {
+        return centre;
+    }
+    let corners = |state: &State| body.corners(state).into_iter().flatten();
+    corners(a).zip(corners(b)).map(|(a, b)| apart([a, b])).fold(centre, f64::max)
 }
 
 /// A few of them: closely at first, then ever further apart, and the last.

@@ -4,13 +4,15 @@
 //! |---|---|
 //! | the two runs: recordings, scripts with settings of their own | [`sides`] |
 //! | what was said or modelled otherwise | `premises` |
-//! | the first difference, and its stage | [`parting`](mod@parting), `contacts` |
+//! | the first difference, and its stage | [`parting`](mod@parting), `contacts`, `near`, `aligned` |
 //! | how the difference grew | [`growth`] |
 //! | a script against its snapshot | [`pinned`] |
 //! | all of it in words | [`told`] |
 
+mod aligned;
 mod contacts;
 pub mod growth;
+mod near;
 pub mod parting;
 pub mod pinned;
 mod premises;

@@ -3,9 +3,13 @@
 //! A stage is blamed when all before it came out alike: commands, then what every body is after the advance, the pairs that
 //! overlap, and for each of them in turn where it touches, who is moved, what is handed over, what a callback makes of it.
 
+use std::collections::BTreeSet;
 use std::fmt;
 
-use super::contacts;
+use super::aligned::renamed;
+use super::contacts::Iteration;
+use super::premises::{Otherwise, lasts, lists};
+use crate::output::numbers::counted;
 use crate::recording::{Command, Frame, Recording, State, Strike};
 
 /// Where two runs part.
@@ -69,6 +73,9 @@ impl fmt::Display for Stage {
     }
 }
 
+/// Bodies that are named of those only one run has.
+const NAMED: usize = 6;
+
 /// A difference before it is known when it was.
 #[derive(Debug)]
 pub(super) struct Difference {
@@ -127,37 +134,80 @@ pub fn parting(a: &Recording, b: &Recording) -> Option<Parting> {
         let Difference { stage, body, pair, what, rows } = found;
         Parting { iteration, time: [now_a.time, now_b.time], stage, body, pair, what, rows }
     };
-    let body = first_differing(&now_a.states, &now_b.states);
     let of_states = |stage| {
+        let body = first_differing(&now_a.states, &now_b.states);
         let found = body
             .map(|body| Difference::of_body(stage, body, [&now_a.states[body as usize], &now_b.states[body as usize]]));
         found.unwrap_or(Difference { stage, body, pair: None, what: String::new(), rows: Vec::new() })
     };
-    let Some([before, _]) = first.checked_sub(1).and_then(frames) else {
-        return Some(at(0, of_states(Stage::Scene)));
+    let Some(before) = first.checked_sub(1).and_then(frames) else {
+        let others = now_a.states.iter().zip(&now_b.states).filter(|(a, b)| !a.is(b)).count().saturating_sub(1);
+        let what = if others > 0 {
+            format!("and so do {}", counted(others, "other body", "other bodies"))
+        } else {
+            String::new()
+        };
+        return Some(at(0, Difference { what, ..of_states(Stage::Scene) }));
     };
-    if now_a.iteration - before.iteration > 1 {
-        let what = format!("at some iteration from {} to {}", before.iteration, now_a.iteration - 1);
-        return Some(at(before.iteration, Difference { what, ..of_states(Stage::Unknown) }));
+    let began = before[0].iteration;
+    if now_a.iteration - began > 1 {
+        let what = format!("at some iteration from {began} to {}{}", now_a.iteration - 1, between([now_a, now_b], a));
+        return Some(at(began, Difference { what, ..of_states(Stage::Unknown) }));
     }
-    let found = stage_of(a, b, [now_a, now_b]);
-    Some(at(before.iteration, found.unwrap_or_else(|| of_states(Stage::Exchange))))
+    let iteration = Iteration { runs: [a, b], before, now: [now_a, now_b], otherwise: Otherwise::of(a, b) };
+    let found = stage_of(&iteration).unwrap_or_else(|| of_states(Stage::Exchange));
+    Some(at(began, with_body(found, &iteration)))
 }
 
-/// Bodies that only one of the two has, or that are made otherwise in number or order.
+/// Of a pair that is all there is to tell: the body of it that comes out otherwise, and its numbers.
+fn with_body(found: Difference, iteration: &Iteration<'_>) -> Difference {
+    let Some(pair) = found.pair.filter(|_| found.body.is_none()) else { return found };
+    let Some(body) = iteration.differing().find(|body| pair.contains(body)) else { return found };
+    let rows = if found.rows.is_empty() { iteration.of_body(found.stage, body).rows } else { found.rows };
+    Difference { body: Some(body), rows, ..found }
+}
+
+/// The first exchange that differs between two frames several iterations apart.
+fn between(frames: [&Frame; 2], run: &Recording) -> String {
+    let [a, b] = frames.map(|frame| frame.hits.as_slice());
+    let same = |a: &Strike, b: &Strike| a.iteration == b.iteration && same_contact(a, b) && same_after(a, b);
+    let at = (0..a.len().max(b.len())).find(|at| !a.get(*at).zip(b.get(*at)).is_some_and(|(a, b)| same(a, b)));
+    let known = at.and_then(|at| [a.get(at), b.get(at)].into_iter().flatten().min_by_key(|hit| hit.iteration));
+    let name = |body: u32| run.bodies.get(body as usize).map_or("?", |body| body.name.as_str());
+    known.map_or_else(String::new, |hit| {
+        format!(", no later than the exchange of {} – {} in iteration {}", name(hit.a), name(hit.b), hit.iteration)
+    })
+}
+
+/// Bodies that only one of the two has, or that are made in another order.
 fn other_bodies(a: &Recording, b: &Recording) -> Option<String> {
-    let names =
-        |recording: &Recording| -> Vec<String> { recording.bodies.iter().map(|body| body.name.clone()).collect() };
-    let (a, b) = (names(a), names(b));
-    if a == b {
+    let names = |run: &Recording| -> Vec<String> { run.bodies.iter().map(|body| body.name.clone()).collect() };
+    let (a_names, mut b_names) = (names(a), names(b));
+    if a_names == b_names {
         return None;
     }
-    let lacking = |names: &[String], others: &[String]| names.iter().find(|name| !others.contains(name)).cloned();
-    Some(match (lacking(&a, &b), lacking(&b, &a)) {
-        (Some(name), _) => format!("only A has a body \"{name}\""),
-        (None, Some(name)) => format!("only B has a body \"{name}\""),
-        (None, None) => "the bodies were made in another order".to_owned(),
-    })
+    let called = renamed(a, b);
+    let mut said: Vec<String> = called.iter().map(|[a, b]| format!("\"{a}\" of A is called \"{b}\" in B")).collect();
+    said.truncate(NAMED);
+    for name in &mut b_names {
+        if let Some([known, _]) = called.iter().find(|[_, new]| new == name) {
+            name.clone_from(known);
+        }
+    }
+    let lacking = |side: &str, names: &[String], others: &[String]| {
+        let known: BTreeSet<&String> = others.iter().collect();
+        let own: Vec<String> =
+            names.iter().filter(|name| !known.contains(name)).map(|name| format!("\"{name}\"")).collect();
+        let said = match own.len() {
+            0 => return None,
+            1..=NAMED => own.join(", "),
+            more => format!("{} and {} more", own[..NAMED].join(", "), more - NAMED),
+        };
+        Some(format!("only {side} has {} {said}", if own.len() == 1 { "a body" } else { "bodies" }))
+    };
+    let lacks = [lacking("A", &a_names, &b_names), lacking("B", &b_names, &a_names)];
+    said.extend(lacks.into_iter().flatten());
+    Some(if said.is_empty() { "the bodies were made in another order".to_owned() } else { said.join("; ") })
 }
 
 fn differ(a: &Frame, b: &Frame) -> bool {
@@ -176,15 +226,33 @@ pub(super) fn first_differing(a: &[State], b: &[State]) -> Option<u32> {
 }
 
 /// What differed first within an iteration.
-fn stage_of(a: &Recording, b: &Recording, [now_a, now_b]: [&Frame; 2]) -> Option<Difference> {
-    let otherwise = contacts::lasts(a) || contacts::lasts(b);
-    commands([now_a, now_b], 0).or_else(|| pushes([now_a, now_b])).or_else(|| {
-        if otherwise {
-            return contacts::stage_of([now_a, now_b], contacts::flies_otherwise(a, b));
+fn stage_of(iteration: &Iteration<'_>) -> Option<Difference> {
+    let Iteration { runs: [a, b], now, otherwise, .. } = *iteration;
+    commands(now, 0).or_else(|| pushes(now)).or_else(|| {
+        if lasts(a) || lasts(b) {
+            return iteration.stage();
         }
-        advance([now_a, now_b], contacts::flies_otherwise(a, b))
-            .or_else(|| listed([now_a, now_b]))
-            .or_else(|| treated([now_a, now_b]))
+        if lists(a) && lists(b) {
+            return advance(now, |body| !struck(now, body)).or_else(|| listed(now)).or_else(|| treated(now));
+        }
+        // Where motion is continuous nothing is listed: what was struck or held tells of the advance only when bodies fly otherwise.
+        let flown =
+            |body| otherwise.flies || iteration.is_fixed(body) || !struck(now, body) && iteration.met(body).is_none();
+        let found = advance(now, flown).or_else(|| treated(now));
+        // What holds bodies in lasting contact acts before anything is struck.
+        let is_held =
+            otherwise.hands && !otherwise.finds && found.as_ref().is_none_or(|found| found.stage == Stage::Detect);
+        if is_held { iteration.handed().or(found) } else { found }
+    })
+}
+
+/// Whether what a body is at the end of an iteration tells of more than its advance.
+fn struck(frames: [&Frame; 2], body: u32) -> bool {
+    frames.into_iter().any(|frame| {
+        let is_advanced = frame.advanced.binary_search_by_key(&body, |(body, _)| *body).is_ok();
+        let is_struck = frame.hits.iter().any(|hit| hit.a == body || hit.b == body);
+        !is_advanced
+            && (is_struck || frame.commands.iter().any(|command| command.body == body && command.exchanges > 0))
     })
 }
 
@@ -229,22 +297,14 @@ fn pushes([a, b]: [&Frame; 2]) -> Option<Difference> {
 }
 
 /// Bodies as they stood before anything was treated: those of listed pairs as recorded then, others as they stand now.
-fn advance([a, b]: [&Frame; 2], flies_otherwise: bool) -> Option<Difference> {
+fn advance([a, b]: [&Frame; 2], is_told: impl Fn(u32) -> bool) -> Option<Difference> {
     let after = |frame: &Frame, body: u32| {
         let found = frame.advanced.binary_search_by_key(&body, |(body, _)| *body);
         found.map_or(frame.states[body as usize], |at| frame.advanced[at].1)
     };
-    let touched = |frame: &Frame, body: u32| {
-        let advanced = frame.advanced.binary_search_by_key(&body, |(body, _)| *body).is_ok();
-        let struck = frame.hits.iter().any(|hit| hit.a == body || hit.b == body);
-        !advanced && (struck || frame.commands.iter().any(|command| command.body == body && command.exchanges > 0))
-    };
-    // Where motion is continuous nothing is listed: what was struck tells of the advance only when bodies fly otherwise.
-    let told = |body: &u32| flies_otherwise || !touched(a, *body) && !touched(b, *body);
-    let bodies = (0..a.states.len() as u32).filter(told);
-    bodies
+    (0..a.states.len() as u32)
         .map(|body| (body, after(a, body), after(b, body)))
-        .find(|(_, a, b)| !a.is(b))
+        .find(|(body, a, b)| !a.is(b) && is_told(*body))
         .map(|(body, a, b)| Difference::of_body(Stage::Advance, body, [&a, &b]))
 }
 

@@ -1,11 +1,63 @@
 //! What was said or modelled otherwise before anything moved.
 
-use choque_engine::scene::Settings;
+use choque_engine::scene::{Detection, ExchangeRule, MotionRule, Settings};
 
-use crate::recording::Recording;
+use crate::recording::{Body, Recording};
 
 /// Bodies made otherwise that are named.
 const MOST_BODIES: usize = 6;
+
+/// Which parts of an iteration the premises make different. Where a recording does not show all of an iteration this says what a
+/// difference cannot come from: whatever is the same in the premises came out the same from the same bodies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Otherwise {
+    /// How bodies move that nothing touches.
+    pub(super) flies: bool,
+    /// Which bodies are found to touch, when, and where.
+    pub(super) finds: bool,
+    /// What they hand each other.
+    pub(super) hands: bool,
+}
+
+impl Otherwise {
+    pub(super) fn of(a: &Recording, b: &Recording) -> Self {
+        let (one, other) = (&a.about.settings, &b.about.settings);
+        let flight = |recording: &Recording| {
+            let settings = &recording.about.settings;
+            (recording.about.time_step, settings.gravity, settings.drag)
+        };
+        let search = |s: &Settings| (s.exchange, detection(s), s.motion, s.plane);
+        let law = |s: &Settings| (s.exchange, s.mu_l, s.mu_a, s.restitution, s.friction, s.substeps, s.sleeping);
+        let of_body = |body: &Body| (body.mass, body.inertia, body.restitution, body.friction);
+        let bodies = || a.bodies.iter().zip(&b.bodies);
+        Otherwise {
+            flies: flight(a) != flight(b),
+            finds: search(one) != search(other) || bodies().any(|(a, b)| a.rects != b.rects),
+            hands: law(one) != law(other) || bodies().any(|(a, b)| of_body(a) != of_body(b)),
+        }
+    }
+}
+
+/// The detection that holds.
+fn detection(settings: &Settings) -> Detection {
+    settings.detection.unwrap_or(match settings.exchange {
+        ExchangeRule::Document => Detection::Vertices,
+        ExchangeRule::Impulse => Detection::Complete,
+    })
+}
+
+/// Whether contacts last in this run and are solved together: an iteration advances, finds and solves in one.
+pub(super) fn lasts(recording: &Recording) -> bool {
+    let settings = &recording.about.settings;
+    settings.exchange == ExchangeRule::Impulse
+        && settings.motion == MotionRule::Stepped
+        && detection(settings) == Detection::Complete
+}
+
+/// Whether an iteration's overlaps are listed before any of them is treated.
+pub(super) fn lists(recording: &Recording) -> bool {
+    recording.about.settings.motion == MotionRule::Stepped && !lasts(recording)
+}
 
 /// Lines that name what differs: version, build, sources, what was set, the plan.
 pub(super) fn premises(a: &Recording, b: &Recording) -> Vec<String> {
@@ -31,13 +83,16 @@ pub(super) fn premises(a: &Recording, b: &Recording) -> Vec<String> {
     }
     let bodies = a.bodies.iter().filter_map(|one| Some((one, b.bodies.iter().find(|other| other.name == one.name)?)));
     for (one, other) in bodies.filter(|(one, other)| one != other).take(MOST_BODIES) {
-        note(&mut lines, &format!("mass of {} [kg]", one.name), &one.mass.to_string(), &other.mass.to_string());
-        note(
-            &mut lines,
-            &format!("inertia of {} [kg·m²]", one.name),
-            &one.inertia.to_string(),
-            &other.inertia.to_string(),
-        );
+        let own = |number: Option<f64>| number.map_or_else(|| "the scene's".to_owned(), |number| number.to_string());
+        let rows = [
+            ("mass [kg]", one.mass.to_string(), other.mass.to_string()),
+            ("inertia [kg·m²]", one.inertia.to_string(), other.inertia.to_string()),
+            ("restitution", own(one.restitution), own(other.restitution)),
+            ("friction", own(one.friction), own(other.friction)),
+        ];
+        for (what, a, b) in rows {
+            note(&mut lines, &format!("{}, {what}", one.name), &a, &b);
+        }
         if one.rects != other.rects {
             lines.push(format!("{} is of another shape", one.name));
         }
@@ -61,7 +116,6 @@ fn settings(a: &Settings, b: &Settings) -> Vec<(String, String, String)> {
 }
 
 fn fields(s: &Settings) -> Vec<(String, String)> {
-    let word = |option: Option<&'static str>| option.unwrap_or("as the exchange wants").to_owned();
     let numbers = [
         ("time_step", s.time_step),
         ("mu_l", s.mu_l),
@@ -74,7 +128,7 @@ fn fields(s: &Settings) -> Vec<(String, String)> {
     let rest = [
         ("steps", s.steps.to_string()),
         ("exchange", s.exchange.word().to_owned()),
-        ("detection", word(s.detection.map(|detection| detection.word()))),
+        ("detection", detection(s).word().to_owned()),
         ("motion", s.motion.word().to_owned()),
         ("gravity", pair(s.gravity)),
         ("drag", pair(s.drag)),

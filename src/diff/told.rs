@@ -1,6 +1,7 @@
 //! A comparison in words and tables.
 
-use super::growth::{growth, told};
+use super::aligned::aligned;
+use super::growth::{Apart, by_time, growth, told};
 use super::parting::{Parting, Row, Stage, common, parting};
 use super::premises::premises;
 use crate::output::numbers::{counted, rough, short};
@@ -43,8 +44,24 @@ pub fn comparison(names: [&str; 2], [a, b]: [&Recording; 2]) -> Found {
     if parting.stage != Stage::Scene || parting.body.is_some() {
         text += &growth_table(&parting, a, b);
     }
+    let mut iteration = parting.iteration;
+    if parting.stage == Stage::Scene && parting.body.is_none() {
+        let (said, parted) = of_those_in_both(a, b);
+        text += &said;
+        iteration = parted.unwrap_or(iteration);
+    }
     text += &judgements(a, b);
-    Found { same: false, iteration: Some(parting.iteration), text }
+    Found { same: false, iteration: Some(iteration), text }
+}
+
+/// Where the bodies that both have part, when each run has others too; and in which iteration.
+fn of_those_in_both(a: &Recording, b: &Recording) -> (String, Option<u64>) {
+    let [a, b] = aligned(a, b);
+    let Some(parting) = parting(&a, &b) else {
+        return ("the bodies that both have are the same to the last bit at every moment\n".to_owned(), None);
+    };
+    let text = format!("of the bodies that both have\n{}{}", in_words(&parting, &a), growth_table(&parting, &a, &b));
+    (text, Some(parting.iteration))
 }
 
 fn alike(a: &Recording, b: &Recording) -> String {
@@ -79,7 +96,7 @@ fn in_words(parting: &Parting, a: &Recording) -> String {
     text += "\n";
     if !parting.rows.is_empty() {
         let cells = |Row { name, values: [a, b] }: &Row| {
-            vec![(*name).to_owned(), format!("{a}"), format!("{b}"), format!("{:.3e}", b - a)]
+            vec![(*name).to_owned(), exact(*a), exact(*b), format!("{:.3e}", b - a)]
         };
         let rows: Vec<Vec<String>> = parting.rows.iter().map(cells).collect();
         let head = [("", Side::Left), ("A", Side::Right), ("B", Side::Right), ("B − A", Side::Right)];
@@ -89,19 +106,32 @@ fn in_words(parting: &Parting, a: &Recording) -> String {
     text
 }
 
-/// The widest bar, for 10 decades each a tenth of it.
+/// A number to its last digit, in as few characters as that takes.
+fn exact(number: f64) -> String {
+    match number.abs() {
+        0.0 => "0".to_owned(),
+        size if (1e-4..1e15).contains(&size) => format!("{number}"),
+        _ => format!("{number:e}"),
+    }
+}
+
+/// The widest bar.
 const BAR: f64 = 32.0;
 
+/// Bars span at least so many powers of e: a decade, so that what hardly grows looks like it.
+const LEAST_SPAN: f64 = core::f64::consts::LN_10;
+
 fn growth_table(parting: &Parting, a: &Recording, b: &Recording) -> String {
-    let all = growth(a, b, parting.iteration + u64::from(parting.stage != Stage::Scene));
-    let told = told(&all);
+    let starts = parting.stage == Stage::Scene;
+    let told = told(&growth(a, b, parting.iteration + u64::from(!starts)));
     let sizes = || told.iter().map(|apart| apart.distance).filter(|distance| *distance > 0.0);
     let (least, most) = (sizes().fold(f64::INFINITY, f64::min), sizes().fold(0.0, f64::max));
-    if told.is_empty() || most == 0.0 {
+    if told.iter().all(|apart| apart.bodies == 0) {
         return String::new();
     }
     let bar = |distance: f64| {
-        let share = if least < most { libm::log(distance / least) / libm::log(most / least) } else { 1.0 };
+        let span = libm::log(most / least).max(LEAST_SPAN);
+        let share = if distance > 0.0 { 1.0 - libm::log(most / distance) / span } else { return String::new() };
         "█".repeat((1.0 + (BAR - 1.0) * share).round() as usize)
     };
     let head = [
@@ -113,24 +143,24 @@ fn growth_table(parting: &Parting, a: &Recording, b: &Recording) -> String {
         ("energy B − A [J]", Side::Right),
         ("distance, on a log scale", Side::Left),
     ];
-    let mut rows = Vec::new();
-    for apart in &told {
-        let distance = if apart.distance > 0.0 { format!("{:.2e}", apart.distance) } else { "0".to_owned() };
-        rows.push(vec![
-            (apart.iteration.saturating_sub(1)).to_string(),
+    let name = |body: u32| a.bodies.get(body as usize).map_or("", |body| body.name.as_str());
+    let row = |apart: &Apart| {
+        vec![
+            apart.iteration.checked_sub(1).map_or_else(|| "start".to_owned(), |iteration| iteration.to_string()),
             short(apart.time),
-            distance,
-            a.bodies.get(apart.body as usize).map_or_else(String::new, |body| body.name.clone()),
+            if apart.distance > 0.0 { format!("{:.2e}", apart.distance) } else { "0".to_owned() },
+            apart.body.map_or("–", name).to_owned(),
             apart.bodies.to_string(),
             rough(apart.energy),
-            if apart.distance > 0.0 { bar(apart.distance) } else { String::new() },
-        ]);
-    }
-    format!(
-        "{}\n{}\n",
-        styled(FAINT, "how it grew: bodies that differ, and the one furthest from itself"),
-        table(&head, &rows)
-    )
+            bar(apart.distance),
+        ]
+    };
+    let rows: Vec<Vec<String>> = told.iter().map(row).collect();
+    let when = if by_time(a, b).is_some() { ", at the same times" } else { "" };
+    let caption = format!(
+        "how it grew: how far a corner of a body is at most from where it is in the other, and how many bodies differ{when}"
+    );
+    format!("{}\n{}\n", styled(FAINT, &caption), table(&head, &rows))
 }
 
 /// Expectations that only one of the two met.

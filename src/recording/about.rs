@@ -7,6 +7,7 @@ use choque_engine::{World, load};
 use choque_scripting::{Options, Scenario};
 use serde::{Deserialize, Serialize};
 
+use super::frame::State;
 use crate::outcome::Judgement;
 
 /// What made a run.
@@ -108,6 +109,12 @@ pub struct Body {
     pub tags: Vec<String>,
     /// In the body's own frame; none of a body that does not cross the collision plane.
     pub rects: Vec<Rect>,
+    /// Its own restitution, where the scene's is overridden.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub restitution: Option<f64>,
+    /// Its own friction, where the scene's is overridden.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub friction: Option<f64>,
 }
 
 /// How a run ended.
@@ -193,7 +200,17 @@ impl Body {
             inertia: world.inertia(id),
             tags: body.tags.clone(),
             rects: load::areas(body, scene.settings.plane).collect(),
+            restitution: body.restitution,
+            friction: body.friction,
         };
         world.ids().zip(&scene.bodies).map(body).collect()
+    }
+
+    /// The corners of its rectangles in the world, when it is there \[m\].
+    #[must_use]
+    pub fn corners(&self, state: &State) -> Vec<[[f64; 2]; 4]> {
+        let (sin, cos) = libm::sincos(state.angle);
+        let place = |x: f64, z: f64| [state.x + cos * x - sin * z, state.z + sin * x + cos * z];
+        self.rects.iter().map(|rect| rect.vertices().map(|v| place(v.x, v.y))).collect()
     }
 }

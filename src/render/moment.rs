@@ -2,7 +2,7 @@
 
 use choque_engine::scene::Kind;
 
-use super::view::{View, corners};
+use super::view::View;
 use crate::output::numbers::trimmed;
 use crate::plot::axis::nice_step;
 use crate::plot::drawing::{At, Drawing, Path, Shape, Stroke};
@@ -176,7 +176,7 @@ impl<'a> Moment<'a> {
                 drawing.text([at[0], at[1] + 0.5 * NAME.size], Anchor::Middle, &body.name, NAME);
                 continue;
             }
-            let corners = corners(body, state).into_iter().flatten().map(|corner| view.place(corner)[0]);
+            let corners = body.corners(state).into_iter().flatten().map(|corner| view.place(corner)[0]);
             let right = corners.fold(at[0], f64::max).min(view.from[0] + view.size[0]);
             if let Some(start) = room.find([right - 3.0, at[1]], &body.name, NAME.size) {
                 drawing.text(start, Anchor::Start, &body.name, NAME);
@@ -224,7 +224,7 @@ fn draw_body(
     fill: Option<Colour>,
     stroke: Option<&Stroke>,
 ) {
-    for corners in corners(body, state) {
+    for corners in body.corners(state) {
         let path = Path::polygon(corners.map(|corner| view.place(corner)));
         drawing.shapes.push(Shape { path, fill, stroke: stroke.cloned() });
     }

@@ -3,7 +3,7 @@
 use choque_engine::scene::Kind;
 
 use crate::plot::drawing::At;
-use crate::recording::{Body, Frame, Recording, State};
+use crate::recording::{Frame, Recording};
 
 /// A part of the plane on a page.
 #[derive(Clone, Debug)]
@@ -67,14 +67,6 @@ impl View {
     }
 }
 
-/// The corners of a body's rectangles in the world.
-pub(super) fn corners(body: &Body, state: &State) -> Vec<[[f64; 2]; 4]> {
-    let (sin, cos) = libm::sincos(state.angle);
-    let place = |x: f64, z: f64| [state.x + cos * x - sin * z, state.z + sin * x + cos * z];
-    let rect = |rect: &choque_engine::Rect| rect.vertices().map(|v| place(v.x, v.y));
-    body.rects.iter().map(rect).collect()
-}
-
 /// From where to where things happen along an axis: mobile bodies, and fixed ones as far as those give a reason.
 fn span(recording: &Recording, frames: &[Frame], axis: usize) -> [f64; 2] {
     let every = frames.len().div_ceil(LOOKS).max(1);
@@ -83,7 +75,7 @@ fn span(recording: &Recording, frames: &[Frame], axis: usize) -> [f64; 2] {
     let mut fixed = Vec::new();
     for frame in looked {
         for (body, state) in recording.bodies.iter().zip(&frame.states) {
-            let numbers = corners(body, state).into_iter().flatten().map(|corner| corner[axis]);
+            let numbers = body.corners(state).into_iter().flatten().map(|corner| corner[axis]);
             if body.kind == Kind::Mobile { mobile.extend(numbers) } else { fixed.extend(numbers) }
         }
     }
