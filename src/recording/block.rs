@@ -3,6 +3,8 @@
 //! Three packs a block: what stands once in a frame; the bodies, column by column and body by body, so that what repeats
 //! stands together; what happened. Everything that is a number is written as its distance from what was expected.
 
+use std::ops::Range;
+
 use choque_engine::PairKind;
 
 use super::foretold::{Course, ORDER};
@@ -44,21 +46,22 @@ impl Memory {
     }
 }
 
-pub(super) fn write(frames: &[Frame], memory: &mut Memory) -> Vec<u8> {
-    let (mut once, mut bodies, mut events) = (Pack::default(), Pack::default(), Pack::default());
+/// A block's bytes, and where those stand that deflate to nothing less.
+pub(super) fn write(frames: &[Frame], memory: &mut Memory) -> (Vec<u8>, [Range<usize>; 3]) {
+    let (mut once, mut events) = (Pack::default(), Pack::default());
     once.put(frames.len() as u64);
     let first = memory.iteration;
     for frame in frames {
         write_once(frame, memory, &mut once);
     }
-    write_states(frames, first, memory, &mut bodies);
+    let bodies = write_states(frames, first, memory);
     for frame in frames {
         write_events(frame, memory, &mut events);
         memory.states.copy_from_slice(&frame.states);
     }
     let mut block = Vec::new();
-    [once, bodies, events].iter().for_each(|pack| pack.append_to(&mut block));
-    block
+    let surprises = [once, bodies, events].map(|pack| pack.append_to(&mut block));
+    (block, surprises)
 }
 
 /// `None` when the bytes are not what [`write`] gives.
@@ -123,28 +126,41 @@ fn read_books(causes: usize, memory: &mut Memory, pack: &mut Unpack) -> Option<B
     Some(Books { booked: booked.to_vec(), relocated: *relocated, relocations })
 }
 
-/// Column by column in the order of [`ORDER`]; `first` is the iteration of the frame before the first.
-fn write_states(frames: &[Frame], first: u64, memory: &mut Memory, pack: &mut Pack) {
-    for column in ORDER {
-        for body in 0..memory.courses.len() {
-            let numbers = frames.iter().map(|frame| (frame.iteration, frame.states[body].to_array()));
-            let mut before = (first, memory.states[body].to_array());
-            for now in numbers {
-                let course = &mut memory.courses[body].columns[column];
-                let number = now.1[column];
+/// Column by column in the order of [`ORDER`]; `first` is the iteration of the frame before the first. Packed body by body, each
+/// column for itself: frames are many and far apart in memory.
+fn write_states(frames: &[Frame], first: u64, memory: &mut Memory) -> Pack {
+    let count = frames.len() * memory.courses.len();
+    let mut columns = [(); State::COUNT].map(|()| Pack::with_room(count));
+    let mut numbers: Vec<(f64, [f64; State::COUNT])> = Vec::with_capacity(frames.len());
+    for (body, (course, last)) in memory.courses.iter_mut().zip(&memory.states).enumerate() {
+        let mut before = first;
+        numbers.clear();
+        numbers.extend(frames.iter().map(|frame| {
+            let iterations = frame.iteration.wrapping_sub(before);
+            before = frame.iteration;
+            (iterations as f64 * memory.time_step, frame.states[body].to_array())
+        }));
+        for (column, pack) in columns.iter_mut().enumerate() {
+            let course = &mut course.columns[column];
+            let mut before = last.to_array();
+            for (time, now) in &numbers {
+                let number = now[column];
                 if column >= 3 {
                     pack.put_near(course.velocity(), number);
                     course.see_velocity(number);
                 } else {
-                    let mean = 0.5 * (before.1[column + 3] + now.1[column + 3]);
-                    let expected = course.place(column, mean, (now.0 - before.0) as f64 * memory.time_step);
+                    let mean = 0.5 * (before[column + 3] + now[column + 3]);
+                    let expected = course.place(column, mean, *time);
                     pack.put_near(expected.value, number);
                     course.see_place(expected, number);
                 }
-                before = now;
+                before = *now;
             }
         }
     }
+    let mut all = Pack::with_room(State::COUNT * count);
+    ORDER.into_iter().for_each(|column| all.append(&columns[column]));
+    all
 }
 
 fn read_states(frames: &mut [Frame], first: u64, memory: &mut Memory, pack: &mut Unpack) -> Option<()> {

@@ -15,14 +15,15 @@
 
 use std::fs;
 use std::io::{self, Read, Write};
+use std::ops::Range;
 use std::path::Path;
 
-use flate2::write::DeflateEncoder;
-use flate2::{Compression, Crc, read::DeflateDecoder};
+use flate2::{Crc, read::DeflateDecoder};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use super::block::{self, Memory};
+use super::deflated::deflated;
 use super::error::{Broken, Wrong};
 use super::{About, Body, Ending, Frame, Recording};
 use crate::written::{self, Kind};
@@ -42,8 +43,8 @@ const DONE: &[u8; 4] = b"DONE";
 /// Tag, two lengths and a checksum.
 const HEAD: usize = 24;
 
-/// States in a block: enough to deflate well, few enough to wait for.
-const STATES_A_BLOCK: usize = 1 << 16;
+/// States in a block: enough to deflate well, few enough to stay in a processor's cache.
+const STATES_A_BLOCK: usize = 1 << 14;
 /// Frames in a block at most.
 const FRAMES_A_BLOCK: usize = 1 << 10;
 
@@ -112,6 +113,8 @@ pub(super) struct Writer<W> {
     out: W,
     memory: Memory,
     waiting: Vec<Frame>,
+    /// Frames that are written, emptied.
+    spent: Vec<Frame>,
     a_block: usize,
 }
 
@@ -122,7 +125,13 @@ impl<W: Write> Writer<W> {
         put_text(&mut out, RUN, about)?;
         put_text(&mut out, BODIES, &bodies)?;
         let a_block = (STATES_A_BLOCK / bodies.len().max(1)).clamp(1, FRAMES_A_BLOCK);
-        Ok(Writer { out, memory: Memory::new(about.time_step, bodies.len()), waiting: Vec::new(), a_block })
+        Ok(Writer {
+            out,
+            memory: Memory::new(about.time_step, bodies.len()),
+            waiting: Vec::new(),
+            spent: Vec::new(),
+            a_block,
+        })
     }
 
     pub(super) fn put(&mut self, frame: Frame) -> io::Result<()> {
@@ -130,10 +139,15 @@ impl<W: Write> Writer<W> {
         if self.waiting.len() >= self.a_block { self.put_block() } else { Ok(()) }
     }
 
+    /// Frames that are written, emptied: their room may be used again.
+    pub(super) fn spent(&mut self) -> impl Iterator<Item = Frame> {
+        self.spent.drain(..)
+    }
+
     fn put_block(&mut self) -> io::Result<()> {
-        let block = block::write(&self.waiting, &mut self.memory);
-        self.waiting.clear();
-        put(&mut self.out, FRAMES, &block)
+        let (block, surprises) = block::write(&self.waiting, &mut self.memory);
+        self.spent.extend(self.waiting.drain(..).map(Frame::emptied));
+        put(&mut self.out, FRAMES, &block, &surprises)
     }
 
     pub(super) fn finish(mut self, ending: &Ending) -> io::Result<W> {
@@ -147,13 +161,11 @@ impl<W: Write> Writer<W> {
 }
 
 fn put_text(out: &mut impl Write, tag: &[u8; 4], value: &impl Serialize) -> io::Result<()> {
-    put(out, tag, ron::to_string(value).map_err(io::Error::other)?.as_bytes())
+    put(out, tag, ron::to_string(value).map_err(io::Error::other)?.as_bytes(), &[])
 }
 
-fn put(out: &mut impl Write, tag: &[u8; 4], content: &[u8]) -> io::Result<()> {
-    let mut deflate = DeflateEncoder::new(Vec::new(), Compression::fast());
-    deflate.write_all(content)?;
-    let packed = deflate.finish()?;
+fn put(out: &mut impl Write, tag: &[u8; 4], content: &[u8], stored: &[Range<usize>]) -> io::Result<()> {
+    let packed = deflated(content, stored)?;
     let mut head = tag.to_vec();
     head.extend((packed.len() as u64).to_le_bytes());
     head.extend((content.len() as u64).to_le_bytes());

@@ -31,6 +31,20 @@ pub struct Frame {
     pub books: Option<Books>,
 }
 
+impl Frame {
+    /// An empty one that has the room of this.
+    pub(super) fn emptied(mut self) -> Self {
+        self.states.clear();
+        self.hits.clear();
+        self.commands.clear();
+        self.pushes.clear();
+        self.listed.clear();
+        self.advanced.clear();
+        self.touches.clear();
+        Frame { books: None, ..self }
+    }
+}
+
 /// Where a body is and how it moves: metres, radians, seconds.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct State {

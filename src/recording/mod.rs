@@ -21,6 +21,7 @@
 
 pub mod about;
 mod block;
+mod deflated;
 pub mod error;
 pub mod file;
 mod foretold;

@@ -2,6 +2,8 @@
 //!
 //! The two kinds are kept apart: sizes repeat and deflate to almost nothing, the bytes of a surprise deflate to nothing less.
 
+use std::ops::Range;
+
 /// Numbers being packed.
 #[derive(Default)]
 pub(super) struct Pack {
@@ -10,10 +12,18 @@ pub(super) struct Pack {
 }
 
 impl Pack {
+    /// With room for so many numbers.
+    pub(super) fn with_room(numbers: usize) -> Self {
+        Pack { sizes: Vec::with_capacity(numbers), bytes: Vec::with_capacity(8 * (numbers + 1)) }
+    }
+
     pub(super) fn put(&mut self, number: u64) {
         let size = 8 - number.leading_zeros() as usize / 8;
         self.sizes.push(size as u8);
-        self.bytes.extend(&number.to_le_bytes()[..size]);
+        // All eight and then fewer: cheaper than to copy a number of bytes that is not known.
+        let length = self.bytes.len() + size;
+        self.bytes.extend_from_slice(&number.to_le_bytes());
+        self.bytes.truncate(length);
     }
 
     /// A number by its distance from what it was expected to be, in steps of the last bit: every bit of it can be told from that.
@@ -22,12 +32,19 @@ impl Pack {
         self.put(((distance << 1) ^ (distance >> 63)) as u64);
     }
 
-    /// The bytes: two lengths, then the two kinds.
-    pub(super) fn append_to(&self, block: &mut Vec<u8>) {
+    /// Adds the numbers of another.
+    pub(super) fn append(&mut self, other: &Pack) {
+        self.sizes.extend_from_slice(&other.sizes);
+        self.bytes.extend_from_slice(&other.bytes);
+    }
+
+    /// The bytes: two lengths, then the two kinds. Gives where those stand that deflate to nothing less.
+    pub(super) fn append_to(&self, block: &mut Vec<u8>) -> Range<usize> {
         block.extend((self.sizes.len() as u64).to_le_bytes());
         block.extend((self.bytes.len() as u64).to_le_bytes());
         block.extend(&self.sizes);
         block.extend(&self.bytes);
+        block.len() - self.bytes.len()..block.len()
     }
 }
 

@@ -3,7 +3,7 @@
 use std::fs::File;
 use std::io::{self, Seek};
 use std::path::Path;
-use std::sync::mpsc::{SyncSender, sync_channel};
+use std::sync::mpsc::{Receiver, SyncSender, channel, sync_channel};
 use std::thread::{self, JoinHandle};
 
 use choque_engine::ledger::Cause;
@@ -64,8 +64,8 @@ pub struct Recorder<K = InMemory> {
 
 /// Where frames go.
 pub trait Keep {
-    /// Takes the next frame.
-    fn keep(&mut self, frame: Frame);
+    /// Takes the next frame, and gives an empty one, with the room of an earlier one if there is any to be had.
+    fn keep(&mut self, frame: Frame) -> Frame;
 }
 
 /// Frames kept in memory: 48 bytes a body, and what happened.
@@ -80,27 +80,48 @@ pub struct InMemory {
 #[derive(Debug)]
 pub struct IntoFile {
     frames: SyncSender<Message>,
+    /// Frames that are written, empty again.
+    spent: Receiver<Frame>,
+    /// Frames to be handed over together: a thread that sleeps costs as much to wake as many bodies to write.
+    together: Vec<Frame>,
+    most: usize,
     writing: JoinHandle<io::Result<File>>,
 }
 
-/// Frames that may wait to be written: a run does not get further ahead.
+/// Messages that may wait to be written: a run does not get further ahead.
 const WAITING: usize = 16;
 
+/// States that are handed over together, and frames at most.
+const STATES_TOGETHER: usize = 1 << 12;
+const FRAMES_TOGETHER: usize = 1 << 6;
+
 enum Message {
-    Frame(Box<Frame>),
+    Frames(Vec<Frame>),
     Done(Ending),
 }
 
 impl Keep for InMemory {
-    fn keep(&mut self, frame: Frame) {
+    fn keep(&mut self, frame: Frame) -> Frame {
         self.frames.push(frame);
+        Frame::default()
     }
 }
 
 impl Keep for IntoFile {
-    fn keep(&mut self, frame: Frame) {
-        // Nobody takes it only where writing failed, which is told in the end.
-        let _ = self.frames.send(Message::Frame(Box::new(frame)));
+    fn keep(&mut self, frame: Frame) -> Frame {
+        self.together.push(frame);
+        if self.together.len() >= self.most {
+            self.hand_over();
+        }
+        self.spent.try_recv().unwrap_or_default()
+    }
+}
+
+impl IntoFile {
+    fn hand_over(&mut self) {
+        let frames = std::mem::replace(&mut self.together, Vec::with_capacity(self.most));
+        // Nobody takes them only where writing failed, which is told in the end.
+        let _ = self.frames.send(Message::Frames(frames));
     }
 }
 
@@ -134,18 +155,24 @@ impl Recorder<IntoFile> {
     #[must_use]
     pub fn into_file(scenario: &Scenario, run: &mut Run, settings: &Settings) -> Self {
         Recorder::begin(scenario, run, settings, |about, bodies| {
+            let most = (STATES_TOGETHER / bodies.len().max(1)).clamp(1, FRAMES_TOGETHER);
             let (frames, taken) = sync_channel(WAITING);
+            let (back, spent) = channel();
             let writing = thread::spawn(move || {
                 let mut writer = Writer::begin(io::BufWriter::new(nameless()?), &about, &bodies)?;
                 loop {
                     match taken.recv() {
-                        Ok(Message::Frame(frame)) => writer.put(*frame)?,
+                        Ok(Message::Frames(frames)) => {
+                            frames.into_iter().try_for_each(|frame| writer.put(frame))?;
+                            // Nobody takes them only where the run has ended.
+                            writer.spent().for_each(|frame| drop(back.send(frame)));
+                        }
                         Ok(Message::Done(ending)) => return Ok(writer.finish(&ending)?.into_inner()?),
                         Err(_) => return Err(io::Error::other("the run was broken off")),
                     }
                 }
             });
-            IntoFile { frames, writing }
+            IntoFile { frames, spent, together: Vec::new(), most, writing }
         })
     }
 
@@ -155,7 +182,8 @@ impl Recorder<IntoFile> {
     /// A file that cannot be written.
     pub fn finish(mut self, world: &World, judgements: &[Judgement], path: &Path) -> Result<(), Error> {
         self.frame_of_the_end(world);
-        let IntoFile { frames, writing } = self.frames;
+        self.frames.hand_over();
+        let IntoFile { frames, writing, .. } = self.frames;
         let _ = frames.send(Message::Done(ending(world, judgements)));
         let written = writing.join().unwrap_or_else(|_| Err(io::Error::other("the thread that writes it panicked")));
         let rewound = written.and_then(|mut file| file.rewind().map(|()| file));
@@ -201,14 +229,14 @@ impl<K: Keep> Recorder<K> {
         frame.time = world.time();
         frame.digest = world.digest();
         frame.totals = Totals::of(world);
-        frame.states = world.ids().map(|id| State::of(world, id)).collect();
-        frame.touches = world.loads().iter().map(|load| Touch::of(world, load)).collect();
+        frame.states.extend(world.ids().map(|id| State::of(world, id)));
+        frame.touches.extend(world.loads().iter().map(|load| Touch::of(world, load)));
         frame.books = world.ledger().map(|ledger| Books {
             booked: Cause::ALL.iter().map(|cause| ledger.booked(*cause).to_array()).collect(),
             relocated: ledger.relocated(),
             relocations: ledger.relocations(),
         });
-        self.frames.keep(frame);
+        self.next = self.frames.keep(frame);
     }
 
     /// The bodies that callbacks have written to since this was last asked.

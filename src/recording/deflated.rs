@@ -1,0 +1,65 @@
+//! Deflating of which parts are only stored: what deflates to nothing less is not tried.
+
+use std::io;
+use std::ops::Range;
+
+use flate2::{Compress, Compression, FlushCompress};
+
+/// Bytes in a stored block of RFC 1951 at most.
+const STORED: usize = 0xffff;
+
+/// One stream as RFC 1951 has it; the ranges, in order, as they are.
+pub(super) fn deflated(content: &[u8], stored: &[Range<usize>]) -> io::Result<Vec<u8>> {
+    let mut deflate = Compress::new(Compression::fast(), false);
+    let mut packed = Vec::with_capacity(content.len() / 2);
+    let mut at = 0;
+    for range in stored.iter().filter(|range| !range.is_empty()) {
+        // A flush ends at a whole byte; what comes after it refers to nothing before.
+        pack(&mut deflate, &content[at..range.start], FlushCompress::Full, &mut packed)?;
+        for chunk in content[range.clone()].chunks(STORED) {
+            let length = chunk.len() as u16;
+            packed.push(0);
+            packed.extend_from_slice(&length.to_le_bytes());
+            packed.extend_from_slice(&(!length).to_le_bytes());
+            packed.extend_from_slice(chunk);
+        }
+        deflate.reset();
+        at = range.end;
+    }
+    pack(&mut deflate, &content[at..], FlushCompress::Finish, &mut packed)?;
+    Ok(packed)
+}
+
+fn pack(deflate: &mut Compress, mut content: &[u8], flush: FlushCompress, packed: &mut Vec<u8>) -> io::Result<()> {
+    loop {
+        packed.reserve(content.len() + 64);
+        let before = deflate.total_in();
+        deflate.compress_vec(content, packed, flush)?;
+        content = &content[(deflate.total_in() - before) as usize..];
+        // Room is left only where nothing waited to be written.
+        if content.is_empty() && packed.len() < packed.capacity() {
+            return Ok(());
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::Read;
+
+    use flate2::read::DeflateDecoder;
+
+    use super::*;
+
+    #[test]
+    fn what_was_stored_and_what_was_deflated_come_back() {
+        let content: Vec<u8> = (0..200_000u32).map(|i| if i < 90_000 { 7 } else { (i * i >> 7) as u8 }).collect();
+        for stored in [vec![], vec![0..0], vec![90_000..200_000], vec![0..10, 90_000..160_000], vec![5..5, 6..7]] {
+            let packed = deflated(&content, &stored).expect("it deflates");
+            let mut back = Vec::new();
+            DeflateDecoder::new(packed.as_slice()).read_to_end(&mut back).expect("it inflates");
+            assert!(back == content, "{stored:?}");
+        }
+        assert!(deflated(&content, &[90_000..200_000]).expect("it deflates").len() < 111_000);
+    }
+}
