@@ -1,9 +1,10 @@
 //! One moment of a run as a drawing: areas, the ways bodies came, where they met, names and a scale.
 
+use choque_engine::Rect;
 use choque_engine::scene::Kind;
 
 use super::view::View;
-use crate::output::numbers::trimmed;
+use crate::output::numbers::{rough, trimmed};
 use crate::plot::axis::nice_step;
 use crate::plot::drawing::{At, Drawing, Path, Shape, Stroke};
 use crate::plot::labels::{Box2, Room};
@@ -25,6 +26,14 @@ const MOST_GHOSTS: usize = 30;
 const MOST_TRAILS: usize = 400;
 /// … and only those with a tag are named.
 const MOST_NAMES: usize = 40;
+/// Letters of a name at most.
+const LONGEST_NAME: usize = 24;
+/// Where there are few bodies each is a dot at least that can be seen [px].
+const DOT: f64 = 1.6;
+/// … and has an outline at least that can be seen, as a playing card on edge [px].
+const THINNEST: f64 = 0.8;
+/// How far paper shines around a name that stands over lines [px].
+const HALO: f64 = 2.6;
 /// Places that each body came by.
 const GHOSTS: usize = 9;
 /// Points of a trail at most.
@@ -75,13 +84,17 @@ impl<'a> Moment<'a> {
         let Some(frame) = self.frames().last() else { return drawing };
         self.draw_trails(&mut drawing, view);
         let bodies = || self.recording.bodies.iter().zip(&frame.states).enumerate();
-        let weight = weight(self.recording, view);
+        let few = self.recording.bodies.len() <= MOST_TRAILS;
+        let weight = weight(self.recording, view).max(if few { THINNEST } else { 0.0 });
         for kind in [Kind::Fixed, Kind::Mobile] {
             for (i, (body, state)) in bodies().filter(|(_, (body, _))| body.kind == kind) {
                 let colour = colour(body, i);
                 let stroke = (weight > 0.2).then(|| Stroke::full(colour, weight));
                 let fill = Some(tint(colour, if body.kind == Kind::Fixed { 0.42 } else { 0.55 }));
                 draw_body(&mut drawing, view, body, state, fill, stroke.as_ref());
+                if few && kind == Kind::Mobile && body.rects.iter().all(|rect| rect.radius() * view.scale < DOT) {
+                    drawing.fill(Path::circle(view.place([state.x, state.z]), DOT), colour);
+                }
             }
         }
         self.draw_contacts(&mut drawing, view, frame);
@@ -166,20 +179,28 @@ impl<'a> Moment<'a> {
         for state in &frame.states {
             room.take(Box2::around(view.place([state.x, state.z]), 1.0));
         }
-        for (body, state) in bodies.iter().zip(&frame.states).filter(|(body, _)| named(body)) {
+        let named: Vec<_> = bodies.iter().zip(&frame.states).filter(|(body, _)| named(body)).collect();
+        let fits = |body: &Body, name: &str| {
+            let least = |rect: &Rect| rect.width().min(rect.depth()) * view.scale;
+            body.rects.iter().any(|rect| least(rect) > width(name, NAME.size) + 4.0)
+        };
+        // Names that fit stand in their bodies; the others look for room afterwards.
+        let (inside, beside): (Vec<_>, Vec<_>) = named
+            .into_iter()
+            .map(|(body, state)| (body, state, shortened(&body.name)))
+            .partition(|(body, _, name)| fits(body, name));
+        for (_, state, name) in &inside {
             let at = view.place([state.x, state.z]);
-            let fits = body
-                .rects
-                .iter()
-                .any(|rect| rect.width().min(rect.depth()) * view.scale > width(&body.name, NAME.size) + 4.0);
-            if fits {
-                drawing.text([at[0], at[1] + 0.5 * NAME.size], Anchor::Middle, &body.name, NAME);
-                continue;
-            }
+            drawing.text([at[0], at[1] + 0.5 * NAME.size], Anchor::Middle, name, NAME);
+            room.take(Box2::around(at, 0.5 * width(name, NAME.size)));
+        }
+        for (body, state, name) in &beside {
+            let at = view.place([state.x, state.z]);
             let corners = body.corners(state).into_iter().flatten().map(|corner| view.place(corner)[0]);
             let right = corners.fold(at[0], f64::max).min(view.from[0] + view.size[0]);
-            if let Some(start) = room.find([right - 3.0, at[1]], &body.name, NAME.size) {
-                drawing.text(start, Anchor::Start, &body.name, NAME);
+            if let Some(start) = room.find([right - 3.0, at[1]], name, NAME.size) {
+                drawing.text(start, Anchor::Start, name, Pen { weight: NAME.weight + HALO, colour: PAPER, ..NAME });
+                drawing.text(start, Anchor::Start, name, NAME);
             }
         }
     }
@@ -212,6 +233,15 @@ impl<'a> Moment<'a> {
     }
 }
 
+/// A name as long as there is room for.
+fn shortened(name: &str) -> String {
+    if name.chars().count() <= LONGEST_NAME {
+        return name.to_owned();
+    }
+    let begun: String = name.chars().take(LONGEST_NAME - 1).collect();
+    format!("{begun}…")
+}
+
 fn colour(body: &Body, index: usize) -> Colour {
     if body.kind == Kind::Fixed { STONE } else { Look(index).colour() }
 }
@@ -241,7 +271,16 @@ fn draw_scale(drawing: &mut Drawing, view: &View, [x, y]: At) {
     let length = nice_step(view.size[0] / view.scale);
     let end = x + length * view.scale;
     drawing.stroke(Path::line([[x, y - 4.0], [x, y], [end, y], [end, y - 4.0]]), Stroke::full(INK, 1.2));
-    drawing.text([end + 7.0, y + 2.0], Anchor::Start, &format!("{} m", crate::output::numbers::rough(length)), SMALL);
+    drawing.text([end + 7.0, y + 2.0], Anchor::Start, &length_in_words(length), SMALL);
+}
+
+/// A length in the unit that suits it.
+fn length_in_words(metres: f64) -> String {
+    let units = [(1e3, "km"), (1.0, "m"), (1e-3, "mm"), (1e-6, "µm")];
+    // A tenth of a metre is said in metres.
+    let unit = units.into_iter().find(|(size, _)| metres > 0.09 * size && (metres > 0.9 * size || *size == 1.0));
+    let (size, unit) = unit.unwrap_or((1.0, "m"));
+    format!("{} {unit}", rough(metres / size))
 }
 
 /// The least size of any rectangle \[m\].

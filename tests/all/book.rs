@@ -1,11 +1,12 @@
 //! The book in `docs/book`: every command in it runs, its words are those of the program, its links lead somewhere.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use choque_scripting::words;
 
-use crate::support::{choque, folder, stderr};
+use crate::support::{choque, folder, stderr, stdout};
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -21,19 +22,27 @@ fn pages() -> Vec<(PathBuf, String)> {
     pages.into_iter().map(|path| (path.clone(), fs::read_to_string(&path).expect("a text"))).collect()
 }
 
-/// The lines of the fenced blocks in one of these languages.
-fn blocks<'a>(text: &'a str, languages: &[&str]) -> Vec<&'a str> {
-    let mut lines = Vec::new();
+/// The fenced blocks: language and lines.
+fn fenced(text: &str) -> Vec<(&str, Vec<&str>)> {
+    let mut blocks: Vec<(&str, Vec<&str>)> = Vec::new();
     let mut inside = false;
     for line in text.lines() {
         match line.strip_prefix("```") {
             Some(_) if inside => inside = false,
-            Some(language) => inside = languages.contains(&language),
-            None if inside => lines.push(line),
+            Some(language) => {
+                blocks.push((language, Vec::new()));
+                inside = true;
+            }
+            None if inside => blocks.iter_mut().last().expect("a block").1.push(line),
             None => {}
         }
     }
-    lines
+    blocks
+}
+
+/// The lines of the fenced blocks in one of these languages.
+fn blocks<'a>(text: &'a str, languages: &[&str]) -> Vec<&'a str> {
+    fenced(text).into_iter().filter(|(language, _)| languages.contains(language)).flat_map(|(_, lines)| lines).collect()
 }
 
 fn copy(from: &Path, to: &Path) {
@@ -48,17 +57,36 @@ fn copy(from: &Path, to: &Path) {
     }
 }
 
-/// A picture of the book that a command has just made anew is the one that is shown; gives how many there were.
+/// The scripts that a page says to save: "Save it as `NAME`" after the block they stand in.
+fn scripts(text: &str) -> Vec<(&str, &str)> {
+    let mut parts = text.split("Save it as `");
+    let mut before = parts.next().unwrap_or_default();
+    let mut scripts = Vec::new();
+    for part in parts {
+        let name = part.split('`').next().unwrap_or_default();
+        let script = before.rsplit("```rhai\n").next().and_then(|rest| rest.split("```").next());
+        scripts.push((name, script.expect("a script before its name")));
+        before = part;
+    }
+    scripts
+}
+
+/// A picture of the book or the README that a command has just made anew is the one that is shown; gives how many there were.
 fn check_pictures(page: &Path, scratch: &Path) -> usize {
-    let pictures = fs::read_dir(root().join("docs/book/src/pictures")).expect("pictures");
+    let shown =
+        ["docs/book/src/pictures", "docs/pictures"].map(|folder| fs::read_dir(root().join(folder)).expect("pictures"));
+    let inside = fs::read_dir(scratch).expect("a folder").map(|entry| entry.expect("an entry").path());
+    let folders: Vec<PathBuf> = inside.filter(|path| path.is_dir()).chain([scratch.to_owned()]).collect();
     let mut made = 0;
-    for shown in pictures.map(|entry| entry.expect("a picture").path()) {
-        let below = fs::read_dir(scratch).expect("a folder").map(|entry| entry.expect("an entry").path());
-        for folder in std::iter::once(scratch.to_owned()).chain(below) {
+    for shown in shown.into_iter().flatten().map(|entry| entry.expect("a picture").path()) {
+        for folder in &folders {
             let anew = folder.join(shown.file_name().expect("a name"));
+            if anew.is_file() && std::env::var_os("UPDATE_BOOK").is_some() {
+                fs::copy(&anew, &shown).expect("a copy");
+            }
             if anew.is_file() {
-                let [shown, anew] = [&shown, &anew].map(|path| fs::read(path).expect("a picture"));
-                assert!(shown == anew, "{}: a picture is not what its command makes", page.display());
+                let [was, is] = [&shown, &anew].map(|path| fs::read(path).expect("a picture"));
+                assert!(was == is, "{}: {} is not what its command makes", page.display(), shown.display());
                 made += 1;
             }
         }
@@ -66,32 +94,52 @@ fn check_pictures(page: &Path, scratch: &Path) -> usize {
     made
 }
 
-/// Page by page in a folder with the shipped scenarios, one command after the other: none may be told that it is wrong.
+/// Page by page in a folder with the shipped scenarios and the scripts that it says to save, one command after the other: none may be
+/// told that it is wrong. A block of text that follows stands in what was said.
 #[test]
 fn every_command_in_the_book_runs() {
-    let (mut commands, mut pictures) = (0, 0);
+    let (mut commands, mut told) = (0, 0);
+    let mut pictures = BTreeSet::new();
     for (page, text) in pages() {
         let scratch = folder(&[]);
         copy(&root().join("scenarios"), &scratch.path().join("scenarios"));
-        for line in blocks(&text, &["console"]) {
-            let Some(call) = line.strip_prefix("$ choque ") else { continue };
-            let output =
-                choque().current_dir(scratch.path()).args(call.split_whitespace()).output().expect("it starts");
-            let code = output.status.code();
-            assert!(matches!(code, Some(0 | 1)), "{}: {line}: {}", page.display(), stderr(&output));
-            commands += 1;
-            pictures += check_pictures(&page, scratch.path());
+        for (name, script) in scripts(&text) {
+            fs::write(scratch.path().join(name), script).expect("a script");
+        }
+        let mut said = String::new();
+        for (language, lines) in fenced(&text) {
+            if language == "text" {
+                for line in lines.iter().filter(|line| !line.trim().is_empty() && line.trim() != "…") {
+                    assert!(said.contains(line.trim()), "{}: \"{line}\" is not in\n{said}", page.display());
+                    told += 1;
+                }
+            }
+            for call in lines.iter().filter(|_| language == "console").filter_map(|line| line.strip_prefix("$ choque "))
+            {
+                let output =
+                    choque().current_dir(scratch.path()).args(call.split_whitespace()).output().expect("it starts");
+                let code = output.status.code();
+                assert!(matches!(code, Some(0 | 1)), "{}: {call}: {}", page.display(), stderr(&output));
+                said = format!("{}{}", stdout(&output), stderr(&output));
+                commands += 1;
+                if check_pictures(&page, scratch.path()) > 0 {
+                    pictures.insert(call.to_owned());
+                }
+            }
         }
     }
-    assert!(commands > 20 && pictures >= 5, "{commands} commands, {pictures} pictures");
+    assert!(commands > 30 && pictures.len() >= 6 && told > 3, "{commands} commands, {pictures:?}, {told} lines");
 }
 
 /// What no test can run is marked, and rare.
 #[test]
 fn commands_that_are_not_run_are_marked() {
-    for (page, text) in pages().iter().filter(|(page, _)| !page.ends_with("README.md")) {
+    for (page, text) in &pages() {
         for line in blocks(text, &["console"]) {
             assert!(line.starts_with("$ choque "), "{}: {line}", page.display());
+        }
+        if page.ends_with("README.md") {
+            continue;
         }
         let by_hand = blocks(text, &["sh"]);
         assert!(by_hand.is_empty() || by_hand[0].starts_with("# by hand"), "{}", page.display());

@@ -1,5 +1,6 @@
 //! Two runs that part: for each stage a pair that first differs there, named with iteration, body, pair and numbers.
 
+use choque::diff::growth::growth;
 use choque::diff::{Parting, Stage, parting};
 use choque::recording::{Recording, Settings, record};
 use choque_engine::scene::Detection;
@@ -128,6 +129,114 @@ fn lasting_contacts_and_continuous_motion_have_stages_too() {
         assert_eq!(of([&[], &[("pull", -0.5)]]), Stage::Advance, "{setting}");
         assert_eq!(of([&[], &[("kick", 2.0)]]), Stage::Command, "{setting}");
     }
+}
+
+/// A box slides, another lands, a third rides on a swinging plank.
+const TOUCHING: &str = r#"
+time_step(1.0 / 64); steps(40); exchange("impulse"); gravity(0, -10); friction(0.3);
+fixed("ground").rect(60, 1).at(0, -0.5);
+mobile("box").rect(1, 1).at(0, 0.5).velocity(5, 0);
+mobile("drop").rect(1, 1).at(-5, 1).angle(0.2);
+fixed("plank").rect(4, 0.4).at(20, 2).swing(deg(10), param("period", 2));
+mobile("rider").rect(1, 1).at(20, 2.7);
+"#;
+
+/// Friction acts where a box stands, without any exchange being told; restitution only where one lands.
+#[test]
+fn what_holds_bodies_in_contact_is_the_exchange() {
+    for setting in ["", "motion(\"continuous\");"] {
+        let script = format!("{TOUCHING}{setting}");
+        let of = |name: &'static str, value| parted(&script, [&set(&[]), &set(&[(name, value)])]);
+        let (found, run) = of("friction", 0.4);
+        assert_eq!((found.stage, found.iteration), (Stage::Exchange, 0), "{setting}: {found:?}");
+        assert!(!found.rows.is_empty() && found.body.is_some(), "{found:?}");
+        let pair = names(&run, &found.pair.expect("a pair"));
+        assert!(pair == ["ground", "box"] || pair == ["plank", "rider"], "{pair:?}");
+        assert_eq!(of("restitution", 0.5).0.stage, Stage::Exchange, "{setting}");
+    }
+}
+
+/// Nothing is ever handed to a fixed body, whoever lies on it.
+#[test]
+fn a_fixed_body_that_moves_otherwise_advances_otherwise() {
+    let script = |turn: f64| {
+        format!("{TOUCHING}fn on_step(world) {{ if world.iteration == 9 {{ world[\"plank\"].angle = {turn:?}; }} }}")
+    };
+    let (a, b) = (run(&script(0.1), &set(&[])), run(&script(0.2), &set(&[])));
+    let found = parting(&a, &b).expect("they part");
+    assert_eq!((found.stage, found.iteration), (Stage::Command, 9), "{found:?}");
+    let patrol = |speed: f64| {
+        let script = format!("{TOUCHING}fixed(\"lift\").rect(1, 1).at(40, 0).patrol([[40, {speed:?}], [41, 0]], 4);");
+        run(&script, &set(&[]))
+    };
+    let found = parting(&patrol(1.0), &patrol(2.0)).expect("they part");
+    assert_eq!(found.stage, Stage::Advance, "{found:?}");
+}
+
+#[test]
+fn bodies_that_only_one_has_are_named_and_the_others_compared() {
+    let say = |script: &str| {
+        let folder = folder(&[("a.rhai", MEETING), ("b.rhai", script)]);
+        let call = choque().current_dir(folder.path()).args(["diff", "a.rhai", "b.rhai"]).output().expect("it runs");
+        assert_eq!(call.status.code(), Some(1), "{}", stderr(&call));
+        stdout(&call)
+    };
+    let same = "the bodies that both have are the same to the last bit at every moment";
+    let said = say(&format!("{MEETING}mobile(\"new\").rect(1, 1).at(30, 0);"));
+    assert!(said.contains("only B has a body \"new\"") && said.contains(same), "{said}");
+    let said = say(&MEETING.replace("mobile(\"b\")", "mobile(\"bee\")"));
+    assert!(said.contains("\"b\" of A is called \"bee\" in B") && said.contains(same), "{said}");
+    let said = say(&MEETING.replace("mobile(\"b\").rect(1, 1).at(0, 0).mass(2);", ""));
+    assert!(said.contains("only A has a body \"b\"") && said.contains("stage detect of a – b: a"), "{said}");
+    let line = "mobile(\"a\").rect(1, 1).at(-2, 0.2).velocity(3, 0).spin(0.3);";
+    let said = say(&format!("{}{line}", MEETING.replace(line, "")));
+    assert!(said.contains("the bodies were made in another order"), "{said}");
+}
+
+/// A body that is only turned, and one that only moves otherwise, are told of; never one that is the same in both.
+#[test]
+fn growth_names_a_body_that_differs() {
+    let (a, b) = (run(MEETING, &set(&[])), run(MEETING, &set(&[("mu_l", 0.8)])));
+    let found = parting(&a, &b).expect("they part");
+    let all = growth(&a, &b, found.iteration + 1);
+    let first = all[0];
+    assert_eq!(
+        (first.distance, first.bodies, first.body),
+        (0.0, 1, found.body),
+        "only its velocity differs: {first:?}"
+    );
+    assert!(all.last().is_some_and(|last| last.distance > 0.01 && last.iteration == 60), "{all:?}");
+    let turned = run(&MEETING.replace(".mass(2)", ".angle(0.01).mass(2)"), &set(&[]));
+    let start = growth(&a, &turned, 0)[0];
+    // A corner is √½ from the middle: turned by 0.01 it is 2 sin(0.005) of that away.
+    assert!((start.distance - 2.0 * libm::sin(0.005) * libm::sqrt(0.5)).abs() < 1e-15, "{start:?}");
+    assert_eq!(names(&a, &[start.body.expect("a body")]), ["b"]);
+    // With half the time step, moments are those of the same time.
+    let halved = Options {
+        overrides: Overrides { time_step: Some(1.0 / 128.0), steps: Some(120), ..Overrides::default() },
+        ..Options::default()
+    };
+    let fine = growth(&a, &run(MEETING, &halved), 1);
+    assert_eq!((fine.len(), fine[0].distance, fine[0].body), (60, 0.0, None), "free flight is exact: {:?}", fine[0]);
+}
+
+#[test]
+fn a_recording_that_ends_earlier_agrees_as_long_as_it_lasts() {
+    let folder = folder(&[("scene.rhai", MEETING)]);
+    let call = |words: &str| choque().current_dir(folder.path()).args(words.split(' ')).output().expect("it runs");
+    let short = call("diff scene.rhai --set-b steps=30");
+    assert_eq!(short.status.code(), Some(1), "{}", stderr(&short));
+    assert!(stdout(&short).contains("they agree as long as both last: 60 and 30 iterations"), "{}", stdout(&short));
+    for name in ["a", "b"] {
+        let law = if name == "a" { "mu_l=0.9" } else { "mu_l=0.8" };
+        let made = call(&format!("run scene.rhai --record {name}.choque --record-every 16 --set {law}"));
+        assert_eq!(made.status.code(), Some(0), "{}", stderr(&made));
+    }
+    let said = stdout(&call("diff a.choque b.choque"));
+    assert!(
+        said.contains("at some iteration from 16 to 31, no later than the exchange of a – b in iteration"),
+        "{said}"
+    );
 }
 
 #[test]

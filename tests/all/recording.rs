@@ -6,7 +6,7 @@ use std::path::Path;
 use choque::recording::{Recording, Settings, record};
 use choque_scripting::{Options, Scenario};
 
-use crate::support::{choque, folder, stderr};
+use crate::support::{choque, folder, stderr, stdout};
 
 /// A scene with everything that frames hold: commands, pushes, exchanges, drag, a patrol, a ledger.
 const LIVELY: &str = r#"
@@ -143,6 +143,52 @@ fn a_recording_of_the_first_version_is_read_for_ever() {
     assert_eq!((old.frames.len(), last.iteration), (97, 96));
     let a = last.states[2];
     assert_eq!([a.x, a.z, a.angle, a.vx, a.vz, a.spin].map(f64::to_bits), LAST_OF_A);
+}
+
+#[test]
+fn a_recording_of_the_first_version_is_drawn_and_compared() {
+    let folder = folder(&[("lively.rhai", LIVELY)]);
+    fs::copy("tests/recordings/lively.0.1.0.choque", folder.path().join("old.choque")).expect("a copy");
+    let call = |words: &str| choque().current_dir(folder.path()).args(words.split(' ')).output().expect("it runs");
+    let drawn = call("render old.choque -o old.svg");
+    assert_eq!(drawn.status.code(), Some(0), "{}", stderr(&drawn));
+    let picture = fs::read_to_string(folder.path().join("old.svg")).expect("a picture");
+    assert!(picture.contains("<title>Lively at iteration 96</title>"), "{picture}");
+    let same = call("diff old.choque old.choque");
+    assert!(stdout(&same).contains("the same to the last bit in every one of 97 moments"), "{}", stdout(&same));
+    let parted = call("diff old.choque lively.rhai --set-b speed=4.5");
+    assert_eq!(parted.status.code(), Some(1), "{}", stderr(&parted));
+    assert!(stdout(&parted).contains("they differ from the start"), "{}", stdout(&parted));
+}
+
+#[test]
+fn what_is_no_recording_is_refused_by_every_call() {
+    let good = recorded(LIVELY, &Settings::default()).to_bytes().expect("bytes");
+    let folder = folder(&[("empty.choque", ""), ("text.choque", "not one")]);
+    fs::create_dir(folder.path().join("folder.choque")).expect("a folder");
+    let newer = [&good[..8], &2u32.to_le_bytes(), &good[12..]].concat();
+    // Lengths that nobody has room for.
+    let giant = [&good[..16], &(u64::MAX / 2).to_le_bytes(), &good[24..]].concat();
+    for (name, bytes) in
+        [("newer.choque", newer), ("giant.choque", giant), ("cut.choque", good[..good.len() / 2].to_vec())]
+    {
+        fs::write(folder.path().join(name), bytes).expect("a file");
+    }
+    for (name, said) in [
+        ("empty.choque", "byte 0"),
+        ("text.choque", "byte 0"),
+        ("newer.choque", "byte 8"),
+        ("giant.choque", "byte"),
+        ("cut.choque", "byte"),
+        ("folder.choque", "cannot read folder.choque"),
+        ("none.choque", "cannot read none.choque"),
+    ] {
+        for call in [vec!["render", name, "-o", "a.svg"], vec!["diff", name, name]] {
+            let refused = choque().current_dir(folder.path()).args(&call).output().expect("it runs");
+            assert_eq!((refused.status.code(), stdout(&refused).as_str()), (Some(2), ""), "{call:?}");
+            assert!(stderr(&refused).contains(said), "{call:?}: {}", stderr(&refused));
+        }
+    }
 }
 
 /// What the body `a` came to, in the version that recorded it.

@@ -43,6 +43,8 @@ fn played(bodies: usize, frames: usize, state: impl Fn(usize, usize) -> State) -
         inertia: 1.0,
         tags: Vec::new(),
         rects: vec![Rect::centred(1.0, 0.6)],
+        restitution: None,
+        friction: None,
     };
     let frame = |f: usize| Frame {
         iteration: f as u64,
