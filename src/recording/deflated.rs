@@ -53,7 +53,8 @@ mod tests {
 
     #[test]
     fn what_was_stored_and_what_was_deflated_come_back() {
-        let content: Vec<u8> = (0..200_000u32).map(|i| if i < 90_000 { 7 } else { (i.wrapping_mul(i) >> 7) as u8 }).collect();
+        let content: Vec<u8> =
+            (0..200_000u32).map(|i| if i < 90_000 { 7 } else { (i.wrapping_mul(i) >> 7) as u8 }).collect();
         let surprises = 90_000..200_000;
         let cases: [&[Range<usize>]; 4] = [&[], &[0..0, surprises.clone()], &[0..10, 90_000..160_000], &[5..5, 6..7]];
         for stored in cases {
