@@ -191,8 +191,11 @@ fn scenarios_are_listed_and_what_they_import_is_not() {
     let studio = Studio::with_ball();
     studio.write("scenarios/.hidden.rhai", "");
     studio.write("scenarios/scene.ron", "");
+    studio.write("scenarios/plan.ron", "Sweep(scenarios: [])");
     let list = studio.get("scenarios").json();
-    assert_eq!(list["scenarios"], json!([{ "id": "ball.rhai", "about": "A ball meets a wall." }]));
+    let (ball, scene) =
+        (json!({ "id": "ball.rhai", "about": "A ball meets a wall." }), json!({ "id": "scene.ron", "about": "" }));
+    assert_eq!(list["scenarios"], json!([ball, scene]));
     studio.write("scenarios/another.rhai", "");
     let longer = studio.get("scenarios").json();
     assert_eq!(longer["scenarios"][0]["id"], "another.rhai");
