@@ -117,10 +117,7 @@ impl Plan {
         Ok(Plan {
             time_step: settings.time_step,
             steps: settings.steps,
-            detection: settings.detection.unwrap_or(match settings.exchange {
-                ExchangeRule::Document => Detection::Vertices,
-                ExchangeRule::Impulse => Detection::Complete,
-            }),
+            detection: settings.detection_that_holds(),
             motion: MotionPlan::resolve(scene, &census),
             exchange: match settings.exchange {
                 ExchangeRule::Document => ExchangePlan::Document {

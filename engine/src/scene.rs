@@ -100,6 +100,17 @@ impl Default for Settings {
     }
 }
 
+impl Settings {
+    /// The detection that holds: the one that is asked for, or else the one that goes with the exchange.
+    #[must_use]
+    pub fn detection_that_holds(&self) -> Detection {
+        self.detection.unwrap_or(match self.exchange {
+            ExchangeRule::Document => Detection::Vertices,
+            ExchangeRule::Impulse => Detection::Complete,
+        })
+    }
+}
+
 /// Makes an enum of a setting's choices with the words that scripts, flags and output use for them.
 macro_rules! choices {
     ($(#[$meta:meta])* $name:ident { $($(#[$doc:meta])* $variant:ident = $word:literal,)+ }) => {

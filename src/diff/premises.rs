@@ -26,7 +26,7 @@ impl Otherwise {
             let settings = &recording.about.settings;
             (recording.about.time_step, settings.gravity, settings.drag)
         };
-        let search = |s: &Settings| (s.exchange, detection(s), s.motion, s.plane);
+        let search = |s: &Settings| (s.exchange, s.detection_that_holds(), s.motion, s.plane);
         let law = |s: &Settings| (s.exchange, s.mu_l, s.mu_a, s.restitution, s.friction, s.substeps, s.sleeping);
         let of_body = |body: &Body| (body.mass, body.inertia, body.restitution, body.friction);
         let bodies = || a.bodies.iter().zip(&b.bodies);
@@ -38,20 +38,12 @@ impl Otherwise {
     }
 }
 
-/// The detection that holds.
-fn detection(settings: &Settings) -> Detection {
-    settings.detection.unwrap_or(match settings.exchange {
-        ExchangeRule::Document => Detection::Vertices,
-        ExchangeRule::Impulse => Detection::Complete,
-    })
-}
-
 /// Whether contacts last in this run and are solved together: an iteration advances, finds and solves in one.
 pub(super) fn lasts(recording: &Recording) -> bool {
     let settings = &recording.about.settings;
     settings.exchange == ExchangeRule::Impulse
         && settings.motion == MotionRule::Stepped
-        && detection(settings) == Detection::Complete
+        && settings.detection_that_holds() == Detection::Complete
 }
 
 /// Whether an iteration's overlaps are listed before any of them is treated.
@@ -128,7 +120,7 @@ fn fields(s: &Settings) -> Vec<(String, String)> {
     let rest = [
         ("steps", s.steps.to_string()),
         ("exchange", s.exchange.word().to_owned()),
-        ("detection", detection(s).word().to_owned()),
+        ("detection", s.detection_that_holds().word().to_owned()),
         ("motion", s.motion.word().to_owned()),
         ("gravity", pair(s.gravity)),
         ("drag", pair(s.drag)),
