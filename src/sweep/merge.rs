@@ -21,12 +21,18 @@ pub fn merged(folder: &Path, shards: &[Rows], columns: &Columns) -> Result<(Iden
         same_sweep(first, shard)?;
     }
     let mut rows: Vec<Option<(&Row, &Rows)>> = vec![None; identity.runs];
+    // Rows stand in the order in which runs ended, which is never the same: of several that contradict the first run is told of.
+    let mut contradiction: Option<[(&Row, &Rows); 2]> = None;
     for (shard, row) in shards.iter().flat_map(|shard| shard.rows.iter().map(move |row| (shard, row))) {
         match rows[row.run] {
             None => rows[row.run] = Some((row, shard)),
             Some((known, _)) if known.cells == row.cells => {}
-            Some((known, other)) => return Err(differ((known, other), (row, shard), columns)),
+            Some(_) if contradiction.is_some_and(|[(first, _), _]| first.run <= row.run) => {}
+            Some(known) => contradiction = Some([known, (row, shard)]),
         }
+    }
+    if let Some([one, other]) = contradiction {
+        return Err(differ(one, other, columns));
     }
     let missing: Vec<usize> = (0..rows.len()).filter(|run| rows[*run].is_none()).collect();
     if !missing.is_empty() {
