@@ -7,7 +7,7 @@
 //! | sub-step: impacts, of bodies that touch no other and in crowds | [`pairs`], [`strike`] |
 //! | what an impact or a push sets against others that were apart | [`wake`] |
 //! | sub-step: what acts on bodies over it | [`Fliers::set_out`](flying::Fliers::set_out) |
-//! | sub-step: pushes and friction at every touch | [`solve`], [`sweep`], [`rest`] |
+//! | sub-step: pushes and friction at every touch | [`solve`], [`sweep`], [`hasten`], [`rest`] |
 //! | sub-step: bodies go on | [`Fliers::arrive`](flying::Fliers::arrive) |
 //! | the step ends: bodies take their places, touches remember | [`Contacts::settle`] |
 //!
@@ -19,6 +19,7 @@ mod blocks;
 mod booked;
 mod find;
 mod flying;
+mod hasten;
 mod loads;
 mod look;
 mod meeting;
@@ -50,6 +51,7 @@ use crate::width::Width;
 use crate::world::World;
 use blocks::Blocks;
 use flying::Fliers;
+use hasten::Hasten;
 use pairs::Pairs;
 use part::Aside;
 use pulls::Pulls;
@@ -94,6 +96,7 @@ pub(crate) struct Contacts {
     blocks: Blocks,
     fliers: Fliers,
     rest: Rest,
+    hasten: Hasten,
     aside: Aside,
     /// Rounds to be spent upon what stands still: fewer where they were in vain.
     patience: u32,
@@ -137,6 +140,7 @@ impl Contacts {
             blocks: Blocks::default(),
             fliers: Fliers::default(),
             rest: Rest::default(),
+            hasten: Hasten::default(),
             aside: Aside::default(),
             patience: solve::PATIENCE,
             pairs: Pairs::default(),

@@ -16,9 +16,6 @@ use crate::lanes::Eight;
 use crate::width::Work;
 use crate::world::World;
 
-/// Up to so many touches are few.
-const FEW: usize = 600;
-
 /// Sweeps in a step, and rounds after that: so many times touches, cubed, for where there are few it is worth being done to the end.
 const SWEEPS: usize = 6;
 const ROUNDS: u64 = 2_000_000_000;
@@ -41,18 +38,13 @@ impl Contacts {
         if excess <= self.band {
             return false;
         }
-        if self.parts_to_the_end() {
+        if self.are_few() {
             self.part_to_the_end(world, excess);
         } else {
             let (rows, blocks) = (&mut self.rows.rows[..], &self.blocks.blocks[..]);
             self.width.run(Part { rows, blocks, band: self.band });
         }
         true
-    }
-
-    /// Whether there are so few touches that they are moved apart to the end, by themselves.
-    pub(super) fn parts_to_the_end(&self) -> bool {
-        self.blocks.count <= FEW
     }
 
     fn part_to_the_end(&mut self, world: &mut World, excess: f64) {

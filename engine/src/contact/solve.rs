@@ -19,7 +19,10 @@ const IN_MOTION: Budget = Budget { swept: 4_000, improved: 2_000 };
 
 /// Where there are few touches they may all be improved until nothing is left to gain, at little cost: so many rounds times touches,
 /// cubed. A heavy body that falls on a heap, or a house of cards, is worth it.
-const THOROUGH: u64 = 20_000_000_000;
+const THOROUGH: u64 = 10_000_000_000;
+
+/// Up to so many touches are few.
+const FEW: usize = 600;
 
 /// Changes of velocity below this share of what gravity does in a sub-step, or where there is none of how fast things are, are not
 /// worth another round where things move.
@@ -43,6 +46,9 @@ const FIRST: u32 = 24;
 
 /// Weights are guessed where more than this share of what gravity does is not borne yet.
 const UNBALANCED: f64 = 1e-2;
+
+/// Where there are few touches, only if nothing falls: is faster than this many times what gravity does in a sub-step.
+const FALLS: f64 = 0.5;
 
 /// How often in a sub-step pushes spread to what stayed apart.
 const MOST_SPREADS: usize = 4;
@@ -86,7 +92,12 @@ impl Contacts {
         self.spread(world, h);
         let most = self.few(budget);
         if most > 0 {
-            self.settle_for(world, Effort { enough: GOOD * scale, most });
+            let effort = Effort { enough: GOOD * scale, most };
+            if self.are_few() {
+                self.hasten(world, effort, false);
+            } else {
+                self.settle_for(world, effort);
+            }
         }
     }
 
@@ -113,21 +124,29 @@ impl Contacts {
 
     /// Improves all touches of a scene that stands still together, for as long as it is worth it.
     fn settle_touches(&mut self, world: &mut World, h: f64, pulled: f64, fastest: f64) {
-        let most = if fastest == 0.0 { PATIENCE } else { self.patience.max(self.few(&IN_QUIET)) };
+        let most = if fastest == 0.0 { PATIENCE } else { self.patience };
         let settled = rest::settled(self.touches.len(), pulled);
         let Settled { left, enough, .. } = self.settle_for(world, Effort { enough: settled, most: FIRST.min(most) });
         if !enough {
-            if left > UNBALANCED * pulled {
+            if left > UNBALANCED * pulled && (!self.are_few() || fastest < FALLS * pulled) {
                 let pull = world.plan.gravity() * h;
                 weights::guess(&mut self.touches, &self.of_touch, &self.rows, &world.bodies, pull, self.band);
                 self.fliers.carry(&self.rows, (&self.touches, &self.of_touch), 1.0);
                 self.fliers.renew(&mut self.rows);
                 self.blocks.renew(&self.touches);
             }
-            let more = self.settle_for(world, Effort { enough: settled, most });
+            let mut more = self.settle_for(world, Effort { enough: settled, most });
+            if !more.enough && self.are_few() {
+                more = self.hasten(world, Effort { enough: settled, most: self.few(&IN_QUIET) }, true);
+            }
             self.patience =
                 if more.enough { (2 * self.patience).min(PATIENCE) } else { (self.patience / 2).max(FIRST) };
         }
+    }
+
+    /// Whether there are so few touches that sweeps may go on until nothing is left to gain.
+    pub(super) fn are_few(&self) -> bool {
+        self.blocks.count <= FEW
     }
 
     /// How many rounds are always worth it.
@@ -158,7 +177,7 @@ impl Contacts {
 
     /// A sweep over the blocks from that one on.
     fn sweep(&mut self, from: usize, back: bool) {
-        let parts = !self.parts_to_the_end();
+        let parts = !self.are_few();
         let (rows, blocks, band) = (&mut self.rows.rows[..], &mut self.blocks.blocks[from..], self.band);
         match (self.plan.friction, parts) {
             (true, true) => self.width.run(Sweep::<true, true> { rows, blocks, band, back }),

@@ -186,12 +186,14 @@ impl Contacts {
         (pull(touch.a).a - pull(touch.b).a).dot(&touch.n).max(0.0)
     }
 
-    /// Whether the pair may come to touch within a time at a speed worth an impact.
+    /// Whether the pair may come to touch within a time at a speed worth an impact. A point that presses already is not reached: what
+    /// little it has come off the face in turning is no flight.
     pub(super) fn may_strike(&self, k: usize, time: f64, h: f64) -> bool {
         let touch = &self.touches[k];
         let [Row(a), Row(b)] = &self.rows_now(k);
         let pulled = self.pulled_together(touch);
-        (0..touch.count as usize).any(|p| {
+        let (pushes, _) = self.blocks.pushes(k);
+        (0..touch.count as usize).filter(|p| pushes[*p] == 0.0).any(|p| {
             let (gap, u) = touch.state(p, a, b);
             // Turning bodies may come sooner than the straight line says: looked for with some room.
             let room =

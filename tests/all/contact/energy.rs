@@ -9,6 +9,9 @@ use super::kit::{DT, Random, energy, floor, grounded, resting, wall};
 /// lift from the motion. Observed: not yet.
 const GROWTH: f64 = 3e-5;
 
+/// How much it may where a body turns about a corner until it lies. Observed: 9e-10.
+const TURNING: f64 = 1e-8;
+
 /// Runs some steps and returns the greatest growth of the energy in one of them [J].
 fn greatest_growth(scene: &Scene, steps: u32) -> (f64, World) {
     let mut world = World::new(scene).expect("a valid scene");
@@ -86,7 +89,9 @@ fn p14_painleves_block_neither_stops_the_run_nor_gains() {
             let start = energy(&World::new(&scene).expect("a valid scene"));
             let (growth, world) = greatest_growth(&scene, libm::round(8.0 / time_step) as u32);
             println!("P14: μ = {mu}, v = {v}, dt = {time_step:.4}: grew by {growth:e} J");
-            assert!(growth <= GROWTH * start, "μ = {mu}, v = {v}: by {growth:e} J in a step");
+            // What turns about a corner is held there, not struck anew in every sub-step.
+            let most = if v < 8.0 { TURNING } else { GROWTH };
+            assert!(growth <= most * start, "μ = {mu}, v = {v}: by {growth:e} J in a step");
             assert!(
                 world.kinetic_energy() <= 1e-9,
                 "μ = {mu}, v = {v}: it comes to rest, not {} J",
