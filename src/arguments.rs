@@ -1,5 +1,6 @@
 //! Flags shared by every call that loads a scenario.
 
+use std::num::{IntErrorKind, ParseIntError};
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -23,7 +24,7 @@ pub struct ScenarioArguments {
     #[arg(long, value_name = "N", value_parser = substeps, allow_negative_numbers = true)]
     substeps: Option<u32>,
     /// Where the generator of random numbers starts, whatever the main part of the script says
-    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", value_parser = seed, allow_negative_numbers = true)]
     seed: Option<i64>,
     /// Value of a `param`, or of mu_l, mu_a, epsilon, restitution, friction; may be given several times
     #[arg(long, value_name = "NAME=VALUE", value_parser = assignment)]
@@ -118,7 +119,14 @@ fn choice<T: Clone + Send + Sync + 'static>(
 }
 
 pub(crate) fn count(text: &str) -> Result<u64, String> {
-    text.trim().parse().map_err(|_| "it must be a whole number, 0 or more".to_owned())
+    text.trim().parse().map_err(|error: ParseIntError| match error.kind() {
+        IntErrorKind::PosOverflow => format!("it must be at most {}", u64::MAX),
+        _ => "it must be a whole number, 0 or more".to_owned(),
+    })
+}
+
+fn seed(text: &str) -> Result<i64, String> {
+    text.trim().parse().map_err(|_| format!("it must be a whole number between {} and {}", i64::MIN, i64::MAX))
 }
 
 pub(crate) fn substeps(text: &str) -> Result<u32, String> {

@@ -24,11 +24,9 @@ impl Kind {
     /// Those.
     pub fn check(&self, path: &Path) -> Result<(), Error> {
         let Kind { what, extension, flag } = self;
-        let refuse = |why: String| {
-            let message = format!("{} {why}", path.display());
-            let hint = format!("a {what}'s file name ends in .{extension}: {flag} {what}.{extension}");
-            Err(Error::Call { message, hint })
-        };
+        let refuse_with = |why: String, hint| Err(Error::Call { message: format!("{} {why}", path.display()), hint });
+        let refuse =
+            |why| refuse_with(why, format!("a {what}'s file name ends in .{extension}: {flag} {what}.{extension}"));
         if path.extension().is_none_or(|found| found != *extension) {
             return refuse(format!("is no name for a {what}"));
         }
@@ -36,7 +34,8 @@ impl Kind {
             return refuse("is there already and is no file".to_owned());
         }
         if !folder_of(path).is_dir() {
-            return refuse("is in a folder that is not there".to_owned());
+            let hint = format!("make the folder {} first", folder_of(path).display());
+            return refuse_with("is in a folder that is not there".to_owned(), hint);
         }
         Ok(())
     }

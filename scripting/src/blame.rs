@@ -107,10 +107,7 @@ impl Blame<'_> {
     pub(crate) fn definition(&self, function: &str) -> Site {
         let text = self.library.text(self.script).unwrap_or_default();
         let defined = source::functions(&text).into_iter().find(|known| known.name.text == function);
-        let position = defined.map_or(Position::NONE, |known| {
-            let short = |number: usize| u16::try_from(number).unwrap_or(u16::MAX);
-            Position::new(short(known.name.line), short(known.name.column))
-        });
+        let position = defined.map_or(Position::NONE, |known| known.name.position());
         Site { source: ImmutableString::from(self.script), position }
     }
 

@@ -29,12 +29,14 @@ pub(crate) const CALLBACKS: [Callback; 3] = [
     Callback {
         name: ON_COLLISION,
         parameters: &["world", "hit"],
-        docs: "Called after each exchange, with the pair and the point in `hit`.",
+        docs: "Called after each exchange, with the pair and the point in `hit`.\n\n\
+               ```rhai\nfn on_collision(world, hit) {\n    print(`${hit.a.name} meets ${hit.b.name} at ${hit.x}, ${hit.z}`);\n}\n```",
     },
     Callback {
         name: STOP_WHEN,
         parameters: &["world"],
-        docs: "Called after each iteration; when it gives true, the run ends there.",
+        docs: "Called after each iteration; when it gives true, the run ends there.\n\n\
+               ```rhai\nfn stop_when(world) { world[\"car\"].speed < 0.1 }\n```",
     },
 ];
 

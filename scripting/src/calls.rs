@@ -1,10 +1,10 @@
-//! Calls that found no function: misspelt, or given what the word does not take.
+//! Calls that found no function: misspelt, or given what the word does not take. Functions that would be called in a word's place.
 
 use crate::blame::Place;
 use crate::error::Complaint;
 use crate::number::kind_named;
 use crate::sandbox;
-use crate::source;
+use crate::source::{self, Token};
 use crate::suggest::did_you_mean;
 use crate::words::{self, Word};
 
@@ -110,4 +110,38 @@ fn misused(call: &Call, signatures: &[&str]) -> Complaint {
     let takes: Vec<&str> =
         fitting.iter().filter_map(|signature| signature.find('(').map(|at| &signature[at..])).collect();
     Complaint::new(format!("{} takes {}, not {given}", call.name, takes.join(" or ")))
+}
+
+/// The name of a function that would be called in a word's place without anyone noticing: with `fn at(a, b)` in a script,
+/// its `.at(1, 2)` would place no body.
+pub(crate) fn hidden_word(text: &str) -> Option<(Token<'_>, Complaint)> {
+    let tokens = source::tokens(text);
+    let is_called = |name: &str| {
+        let texts = tokens.windows(3).map(|three| [three[0].text, three[1].text, three[2].text]);
+        texts.into_iter().any(|call| call == [".", name, "("])
+    };
+    let mut own = source::functions(text);
+    own.retain(|function| is_called(function.name.text));
+    if own.is_empty() {
+        return None;
+    }
+    let words = words::all();
+    own.into_iter().find_map(|function| {
+        let arguments = function.parameters.join(", ");
+        let hides = |word: &&Word| {
+            let mut calls = calls_of(word).filter(|call| call.contains('.'));
+            word.name == function.name.text && calls.any(|call| arguments_of(call) == function.parameters.len())
+        };
+        let word = words.iter().find(hides)?;
+        let name = &word.name;
+        let complaint = Complaint::new(format!("fn {name}({arguments}) would be called where `.{name}` is written"))
+            .hint(format!("`{name}` is a word: give the function another name"));
+        Some((function.name, complaint))
+    })
+}
+
+/// How many arguments a call takes that is written as the manual does.
+fn arguments_of(signature: &str) -> usize {
+    let inside = signature.split_once('(').map_or("", |(_, rest)| rest.trim_end_matches(')'));
+    if inside.is_empty() { 0 } else { inside.split(", ").count() }
 }

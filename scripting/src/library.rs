@@ -96,7 +96,8 @@ impl Library {
         let folder = relative.parent().unwrap_or(Path::new(""));
         let near = self.roots.iter().find_map(|root| {
             let names = names_below(root, folder);
-            nearest(&wanted, names.iter().map(String::as_str)).map(|name| folder.join(name))
+            let near = nearest(&wanted, names.iter().map(String::as_str));
+            near.filter(|near| are_alike(stem(&wanted), stem(near))).map(|name| folder.join(name))
         });
         complaint.maybe_hint(near.map(|near| format!("did you mean \"{}\"?", near.display())))
     }
@@ -163,6 +164,16 @@ fn scenarios_above(folder: &Path) -> Option<PathBuf> {
         return Some(found.to_owned());
     }
     folder.canonicalize().ok()?.ancestors().find(named).map(Path::to_owned)
+}
+
+/// A file's name without what follows its last point.
+fn stem(name: &str) -> &str {
+    name.rsplit_once('.').map_or(name, |(stem, _)| stem)
+}
+
+/// Whether one may have been meant by the other; endings that agree do not make `nope.rhai` like `bom.rhai`.
+fn are_alike(one: &str, other: &str) -> bool {
+    one == other || nearest(one, [other]).is_some()
 }
 
 /// The names in a folder below a root; none of a folder that a link leads out to.

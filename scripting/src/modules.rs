@@ -7,6 +7,7 @@ use std::rc::Rc;
 
 use rhai::{AST, Engine, EvalAltResult, GlobalRuntimeState, Module, ModuleResolver, Position, Scope, Shared};
 
+use crate::calls;
 use crate::error::{Complaint, Diagnostic};
 use crate::library::{Found, Library, read_text};
 use crate::sandbox;
@@ -47,6 +48,9 @@ impl Resolver {
         let text = read_text(&found.canonical, &found.shown).map_err(as_script_error)?;
         self.library.keep(name, &text);
         let mut ast = sandbox::compile(engine, &text).map_err(|error| within(name, Box::new(error.into())))?;
+        if let Some((function, complaint)) = calls::hidden_word(&text) {
+            return Err(within(name, complain(complaint, function.position())));
+        }
         ast.set_source(name);
         let ast = Rc::new(ast);
         self.compiled.borrow_mut().insert(found.canonical.clone(), ast.clone());

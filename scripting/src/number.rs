@@ -55,10 +55,13 @@ pub(crate) fn whole(what: &str, value: &Dynamic) -> Result<i64, Complaint> {
         return Ok(whole);
     }
     let number = value.as_float().map_err(|_| must_be(what, "a whole number", value))?;
-    let is_whole = number.abs() <= MOST_EXACT && libm::trunc(number) == number;
-    is_whole
+    if libm::trunc(number) != number {
+        return Err(Complaint::new(format!("{what} must be a whole number, not {number}")));
+    }
+    let is_exact = number.abs() <= MOST_EXACT;
+    is_exact
         .then_some(number as i64)
-        .ok_or_else(|| Complaint::new(format!("{what} must be a whole number, not {number}")))
+        .ok_or_else(|| Complaint::new(format!("{what} must be between -{MOST_EXACT} and {MOST_EXACT}, not {number:e}")))
 }
 
 /// A whole number that is 0 or more.
@@ -109,7 +112,8 @@ pub(crate) fn tuples<const N: usize>(what: &str, shape: &str, value: &Dynamic) -
         let place = format!("{what}, entry {at}");
         let numbers = row.read_lock::<Array>().ok_or_else(|| must_be(&place, shape, row))?;
         if numbers.len() != N {
-            return Err(Complaint::new(format!("{place} must be {shape}, not {} numbers", numbers.len())));
+            let count = if numbers.len() == 1 { "1 number".to_owned() } else { format!("{} numbers", numbers.len()) };
+            return Err(Complaint::new(format!("{place} must be {shape}, not {count}")));
         }
         let mut tuple = [0.0; N];
         for (at, (slot, number)) in tuple.iter_mut().zip(numbers.iter()).enumerate() {

@@ -9,6 +9,7 @@ use rhai::{AST, Dynamic, Engine, GlobalRuntimeState, Module, NativeCallContext, 
 
 use crate::blame::Blame;
 use crate::callbacks::Callbacks;
+use crate::calls;
 use crate::clock::Clock;
 use crate::control::{self, Control};
 use crate::draft::Draft;
@@ -40,7 +41,7 @@ impl Program {
     /// Compiles a script.
     ///
     /// # Errors
-    /// What the language does not allow; a callback that could never be called.
+    /// What the language does not allow; a callback that could never be called; a function that hides a word.
     pub(crate) fn compile(file: &Path, text: &str, options: &Options) -> Result<Program, Diagnostic> {
         let library = Rc::new(Library::new(file, options.library.as_deref(), options.reads.clone()));
         let name = file.display().to_string();
@@ -51,6 +52,9 @@ impl Program {
         let blame = Blame { engine: &engine, library: &library, script: &name };
         let mut ast = sandbox::compile(&engine, text).map_err(|error| blame.syntax_error(error))?;
         ast.set_source(&name);
+        if let Some((function, complaint)) = calls::hidden_word(text) {
+            return Err(blame.complaint_at(complaint, &blame.definition(function.text)));
+        }
         let callbacks = Callbacks::of(&ast)
             .map_err(|(function, complaint)| blame.complaint_at(complaint, &blame.definition(&function)))?;
         Ok(Program { engine, ast, text: text.to_owned(), clock, library, name, file: file.to_owned(), callbacks })

@@ -1,5 +1,7 @@
 //! A light look at a script's text, for hints: what it declares, and where. Rhai's own parser has given up by then.
 
+use rhai::Position;
+
 /// A word or a sign of a script.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Token<'a> {
@@ -8,6 +10,14 @@ pub(crate) struct Token<'a> {
     pub(crate) line: usize,
     /// In characters, from 1.
     pub(crate) column: usize,
+}
+
+impl Token<'_> {
+    /// Where it begins, as the language counts.
+    pub(crate) fn position(&self) -> Position {
+        let short = |number: usize| u16::try_from(number).unwrap_or(u16::MAX);
+        Position::new(short(self.line), short(self.column))
+    }
 }
 
 /// A function of a script.
@@ -45,11 +55,11 @@ pub(crate) fn tokens(text: &str) -> Vec<Token<'_>> {
 }
 
 /// Where the last comment over several lines begins.
-pub(crate) fn last_comment(text: &str) -> rhai::Position {
+pub(crate) fn last_comment(text: &str) -> Position {
     let before = text.rfind("/*").map_or("", |at| &text[..at]);
     let line = before.matches('\n').count() + 1;
     let column = before.rsplit('\n').next().map_or(0, |row| row.chars().count()) + 1;
-    rhai::Position::new(u16::try_from(line).unwrap_or(u16::MAX), u16::try_from(column).unwrap_or(u16::MAX))
+    Position::new(u16::try_from(line).unwrap_or(u16::MAX), u16::try_from(column).unwrap_or(u16::MAX))
 }
 
 fn is_word(c: char) -> bool {

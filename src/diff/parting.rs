@@ -9,7 +9,6 @@ use std::fmt;
 use super::aligned::renamed;
 use super::contacts::Iteration;
 use super::premises::{Otherwise, lasts, lists};
-use crate::output::numbers::counted;
 use crate::recording::{Command, Frame, Recording, State, Strike};
 
 /// Where two runs part.
@@ -142,10 +141,10 @@ pub fn parting(a: &Recording, b: &Recording) -> Option<Parting> {
     };
     let Some(before) = first.checked_sub(1).and_then(frames) else {
         let others = now_a.states.iter().zip(&now_b.states).filter(|(a, b)| !a.is(b)).count().saturating_sub(1);
-        let what = if others > 0 {
-            format!("and so do {}", counted(others, "other body", "other bodies"))
-        } else {
-            String::new()
+        let what = match others {
+            0 => String::new(),
+            1 => "and so does 1 other body".to_owned(),
+            _ => format!("and so do {others} other bodies"),
         };
         return Some(at(0, Difference { what, ..of_states(Stage::Scene) }));
     };

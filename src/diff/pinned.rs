@@ -53,12 +53,27 @@ pub fn recording_beside(snapshot: &Path) -> Result<Option<Recording>, Error> {
 /// # Errors
 /// What cannot be read.
 pub fn against(snapshot: &Path, name: &str, run: &Recording) -> Result<(Found, Option<Recording>), Error> {
-    let kept = recording_beside(snapshot)?;
-    let found = match &kept {
-        Some(kept) => comparison([&format!("{} (recorded)", snapshot.display()), name], [kept, run]),
-        None => compare(&read(snapshot)?, run, [&snapshot.display().to_string(), name]),
+    let names = [&snapshot.display().to_string(), name];
+    let Some(kept) = recording_beside(snapshot)? else {
+        return Ok((compare(&read(snapshot)?, run, names), None));
     };
-    Ok((found, kept))
+    match read(snapshot) {
+        Ok(pinned) if !ends_as(&pinned, &kept) => {
+            let mut found = compare(&pinned, run, names);
+            found.text += &format!(
+                "{} is passed over: it is of another run than the snapshot; record it again\n",
+                snapshot.with_extension("choque").display()
+            );
+            Ok((found, None))
+        }
+        _ => Ok((comparison([&format!("{} (recorded)", snapshot.display()), name], [&kept, run]), Some(kept))),
+    }
+}
+
+/// Whether a run ended as the snapshot says, to the last bit.
+fn ends_as(snapshot: &Snapshot, run: &Recording) -> bool {
+    let is_end = |frame: &Frame| hexadecimal(frame.digest) == snapshot.digest;
+    snapshot.steps == run.ending.steps && run.frames.last().is_some_and(is_end)
 }
 
 /// What a snapshot alone tells: A is the snapshot, B the run.
@@ -70,7 +85,7 @@ pub fn compare(snapshot: &Snapshot, run: &Recording, names: [&str; 2]) -> Found 
     }
     text += "\n";
     let last = run.frames.last();
-    if snapshot.steps == run.ending.steps && last.is_some_and(|frame| hexadecimal(frame.digest) == snapshot.digest) {
+    if ends_as(snapshot, run) {
         text += &format!("{}\n", styled(GOOD, "the same to the last bit at the end"));
         return Found { same: true, iteration: None, text };
     }

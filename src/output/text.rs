@@ -176,7 +176,7 @@ const LAST_READ: usize = 8;
 pub fn failure(judgement: &Judgement) -> String {
     let mut text = judgement.text.clone();
     if let Some(iteration) = judgement.first_failure {
-        text += &format!(": first failed after {iteration} iterations");
+        text += &format!(": first failed after {}", counted(iteration as usize, "iteration", "iterations"));
     }
     let numbers = judgement.numbers.as_slice();
     let (earlier, last) = numbers.split_at(numbers.len().saturating_sub(LAST_READ));

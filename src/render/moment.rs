@@ -68,9 +68,12 @@ impl<'a> Moment<'a> {
     #[must_use]
     pub fn draw(&self, width: f64) -> Drawing {
         let view = View::of(self.recording, self.frames(), width);
-        let mut drawing = self.draw_in(&view);
-        self.draw_ghosts_first(&mut drawing, &view);
-        drawing
+        let drawing = self.draw_in(&view);
+        let mut page = Drawing::new(drawing.width, drawing.height, &drawing.title);
+        page.fill(Path::rect([0.0, 0.0], [page.width, page.height]), PAPER);
+        self.draw_ghosts(&mut page, &view);
+        page.shapes.extend(drawing.shapes);
+        page
     }
 
     fn frames(&self) -> &'a [Frame] {
@@ -108,25 +111,23 @@ impl<'a> Moment<'a> {
         format!("{} at iteration {iteration}", self.recording.about.title)
     }
 
-    /// Where bodies were at regular moments, fainter the longer ago; under everything else.
-    fn draw_ghosts_first(&self, drawing: &mut Drawing, view: &View) {
+    /// Where bodies were at regular moments, fainter the longer ago; to be under everything else.
+    fn draw_ghosts(&self, drawing: &mut Drawing, view: &View) {
         let mobile = self.recording.bodies.iter().filter(|body| body.kind == Kind::Mobile).count();
         if mobile > MOST_GHOSTS {
             return;
         }
         let frames = self.frames();
-        let mut ghosts = Drawing::new(drawing.width, drawing.height, &drawing.title);
         for step in 0..GHOSTS {
             let Some(frame) = frames.get(step * frames.len().saturating_sub(1) / GHOSTS) else { continue };
             let strength = 0.05 + 0.13 * step as f64 / GHOSTS as f64;
             for (i, (body, state)) in self.recording.bodies.iter().zip(&frame.states).enumerate() {
                 let moved = frames.last().is_some_and(|last| !last.states[i].is(state));
                 if moved {
-                    draw_body(&mut ghosts, view, body, state, Some(tint(colour(body, i), strength)), None);
+                    draw_body(drawing, view, body, state, Some(tint(colour(body, i), strength)), None);
                 }
             }
         }
-        drawing.shapes.splice(0..0, ghosts.shapes);
     }
 
     fn draw_trails(&self, drawing: &mut Drawing, view: &View) {
@@ -218,7 +219,8 @@ impl<'a> Moment<'a> {
         ];
         margins.into_iter().for_each(|[from, to]| drawing.fill(Path::rect(from, to), PAPER));
         drawing.stroke(Path::rect(view.from, [right, bottom]), Stroke::full(tint(INK, 0.35), 1.0));
-        drawing.text([left, 20.0], Anchor::Start, &self.recording.about.title, TITLE);
+        let title = fitting(&self.recording.about.title, TITLE.size, right - left);
+        drawing.text([left, 20.0], Anchor::Start, &title, TITLE);
         let time = format!("{:.3}", frame.time);
         let moment = format!("iteration {}, {} s", frame.iteration, trimmed(&time));
         drawing.text([left, 37.0], Anchor::Start, &moment, SMALL);
@@ -240,6 +242,16 @@ fn shortened(name: &str) -> String {
     }
     let begun: String = name.chars().take(LONGEST_NAME - 1).collect();
     format!("{begun}…")
+}
+
+/// A text as long as there is room for on a line of that width.
+fn fitting(text: &str, size: f64, room: f64) -> String {
+    if width(text, size) <= room {
+        return text.to_owned();
+    }
+    let mut begun = text.to_owned();
+    while begun.pop().is_some() && width(&format!("{begun}…"), size) > room {}
+    format!("{}…", begun.trim_end())
 }
 
 fn colour(body: &Body, index: usize) -> Colour {
@@ -292,4 +304,17 @@ fn smallest(recording: &Recording) -> f64 {
 /// How thick outlines are: thin where rectangles are small.
 fn weight(recording: &Recording, view: &View) -> f64 {
     (0.08 * smallest(recording) * view.scale).min(1.3)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_title_ends_where_the_picture_does() {
+        assert_eq!(fitting("kick", TITLE.size, 400.0), "kick");
+        let long = fitting("Figure 12: relocation of the vertex's owner", TITLE.size, 200.0);
+        assert!(long.starts_with("Figure 12") && long.ends_with('…') && width(&long, TITLE.size) <= 200.0, "{long}");
+        assert_eq!(fitting("long", TITLE.size, 0.0), "…");
+    }
 }

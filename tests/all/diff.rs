@@ -294,4 +294,9 @@ fn a_run_is_compared_with_its_snapshot() {
     assert_eq!(call("run scenarios/one.rhai --record snapshots/one.choque").status.code(), Some(0));
     let parted = call("diff scenarios/one.rhai snapshots/one.snap --set mu_l=0.5");
     assert!(stdout(&parted).contains("stage exchange of a – b: b"), "{}", stdout(&parted));
+    // One of another run than the snapshot's would tell of the wrong numbers.
+    assert_eq!(call("run scenarios/one.rhai --set mu_l=0.7 --record snapshots/one.choque").status.code(), Some(0));
+    let parted = stdout(&call("diff scenarios/one.rhai snapshots/one.snap --set mu_l=0.5"));
+    assert!(parted.contains("one.choque is passed over"), "{parted}");
+    assert!(parted.contains("they part after iteration 24 and before 32"), "{parted}");
 }

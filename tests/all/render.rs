@@ -31,6 +31,11 @@ fn a_run_becomes_what_the_extension_says() {
     let svg = String::from_utf8(file("a.svg")).expect("text");
     let document = roxmltree::Document::parse(&svg).expect("well-formed");
     assert!(document.descendants().any(|node| node.text() == Some("A <meeting> at iteration 64")), "{svg}");
+    // White under all of it: on a dark page too names and trails are seen.
+    let first = document.descendants().find(|node| node.has_tag_name("path")).expect("shapes");
+    let page = ["width", "height"].map(|side| document.root_element().attribute(side).expect("a size"));
+    let all_of_it = format!("m0 0l{} 0l0 {}l-{} 0z", page[0], page[1], page[0]);
+    assert_eq!((first.attribute("fill"), first.attribute("d")), (Some("#ffffff"), Some(all_of_it.as_str())));
     assert_eq!(file("a.svg"), file("c.svg"), "a recording looks as the run does");
     assert_eq!(file("early.svg"), file("too.svg"));
     assert_ne!(file("early.svg"), file("a.svg"));
@@ -56,6 +61,7 @@ fn what_cannot_be_drawn_is_said() {
         ("render bad.choque -o a.svg", "cannot read bad.choque: byte 0: it does not begin as a recording does"),
         ("render none.choque -o a.svg", "cannot read none.choque"),
         ("render scene.rhai -o none/a.svg", "in a folder that is not there"),
+        ("render scene.rhai -o none/a.svg", "make the folder none first"),
     ] {
         let output = choque().current_dir(folder.path()).args(words.split(' ')).output().expect("it runs");
         assert_eq!(output.status.code(), Some(2), "{words}");

@@ -41,6 +41,10 @@ pub(crate) mod module {
 
     /// Gives the body a rectangle centred on it, `width` along X and `depth` along Z \[m\]. Repeat it for a body
     /// of several rectangles.
+    ///
+    /// ```rhai
+    /// mobile("car").rect(4.2, 1.8);
+    /// ```
     #[rhai_fn(return_raw)]
     pub fn rect(context: NativeCallContext, body: Body, width: Number, depth: Number) -> RhaiResultOf<Body> {
         on_body(&context, body, |draft| {
@@ -51,6 +55,10 @@ pub(crate) mod module {
     }
 
     /// Gives the body a rectangle anywhere in its own frame \[m\].
+    ///
+    /// ```rhai
+    /// fixed("door").rect(0, 2, -0.1, 0.1);                 // hinged at its end
+    /// ```
     #[rhai_fn(name = "rect", return_raw)]
     pub fn rect_between(
         context: NativeCallContext,
@@ -70,6 +78,10 @@ pub(crate) mod module {
     /// Gives the body a 3D mesh: its vertices `[[x, y, z], …]` in the body's frame \[m\], y upwards. Its area is
     /// the rectangle around them, and it counts where the mesh crosses the collision plane. Repeat it for a
     /// body of several rectangles.
+    ///
+    /// ```rhai
+    /// mobile("ramp").mesh([[-1, 0, -1], [1, 0, 1], [1, 0.5, 0]]);
+    /// ```
     #[rhai_fn(return_raw)]
     pub fn mesh(context: NativeCallContext, body: Body, vertices: List) -> RhaiResultOf<Body> {
         on_body(&context, body, |draft| {
@@ -79,6 +91,10 @@ pub(crate) mod module {
     }
 
     /// Gives the body a 3D mesh from a Wavefront `.obj` file below the script's folder or below the library.
+    ///
+    /// ```rhai
+    /// mobile("car").model("lib/car.obj").mass(1200);
+    /// ```
     #[rhai_fn(return_raw)]
     pub fn model(context: NativeCallContext, body: Body, file: Text) -> RhaiResultOf<Body> {
         let library = session::with(&context, |session| Ok(session.library.clone()))?;
@@ -89,6 +105,10 @@ pub(crate) mod module {
     }
 
     /// How high the mesh stands over the ground \[m\]. Default: 0.
+    ///
+    /// ```rhai
+    /// fixed("bridge").mesh([[-2, 0, -8], [2, 1, 8]]).height(4);
+    /// ```
     #[rhai_fn(return_raw)]
     pub fn height(context: NativeCallContext, body: Body, y: Number) -> RhaiResultOf<Body> {
         let y = number::finite("height", &y);
@@ -96,6 +116,10 @@ pub(crate) mod module {
     }
 
     /// Scales the body's rectangles and meshes, all axes alike; greater than 0. Default: 1.
+    ///
+    /// ```rhai
+    /// mobile("truck").rect(4, 2).scale(1.5);
+    /// ```
     #[rhai_fn(return_raw)]
     pub fn scale(context: NativeCallContext, body: Body, s: Number) -> RhaiResultOf<Body> {
         let s = number::positive("scale", &s);
@@ -103,6 +127,10 @@ pub(crate) mod module {
     }
 
     /// Scales the body's rectangles and meshes along each axis; each greater than 0.
+    ///
+    /// ```rhai
+    /// mobile("plank").rect(1, 1).scale(4, 1, 0.2);
+    /// ```
     #[rhai_fn(name = "scale", return_raw)]
     pub fn scale_axes(
         context: NativeCallContext,
@@ -119,6 +147,10 @@ pub(crate) mod module {
     }
 
     /// Where the body's centre stands \[m\]. Default: (0, 0).
+    ///
+    /// ```rhai
+    /// mobile("car").rect(4.2, 1.8).at(-12, 5);
+    /// ```
     #[rhai_fn(return_raw)]
     pub fn at(context: NativeCallContext, body: Body, x: Number, z: Number) -> RhaiResultOf<Body> {
         let place = number::pair(number::finite, ("at: x", &x), ("at: z", &z));
@@ -126,14 +158,22 @@ pub(crate) mod module {
     }
 
     /// The body's angle \[rad\], turning from +X towards +Z. Default: 0. `deg(90)` is a right angle.
+    ///
+    /// ```rhai
+    /// mobile("car").rect(4.2, 1.8).angle(deg(90));
+    /// ```
     #[rhai_fn(return_raw)]
     pub fn angle(context: NativeCallContext, body: Body, rad: Number) -> RhaiResultOf<Body> {
         let rad = number::finite("angle", &rad);
         set(&context, body, rad, |body, rad| body.angle = rad)
     }
 
-    /// The body's velocity \[m/s\]. A fixed body that is given one, even (0, 0), has physics: what it hits feels
-    /// its motion.
+    /// The body's velocity \[m/s\]. Default: (0, 0). A fixed body that is given one, even (0, 0), has physics: what it
+    /// hits feels its motion.
+    ///
+    /// ```rhai
+    /// mobile("car").rect(4.2, 1.8).velocity(0, -8);
+    /// ```
     #[rhai_fn(return_raw)]
     pub fn velocity(context: NativeCallContext, body: Body, x: Number, z: Number) -> RhaiResultOf<Body> {
         change(&context, body, |body| {
@@ -143,7 +183,12 @@ pub(crate) mod module {
         })
     }
 
-    /// The body's spin \[rad/s\], turning from +X towards +Z. A fixed body that is given one, even 0, has physics.
+    /// The body's spin \[rad/s\], turning from +X towards +Z. Default: 0. A fixed body that is given one, even 0, has
+    /// physics.
+    ///
+    /// ```rhai
+    /// fixed("blade").rect(6, 0.4).spin(2);
+    /// ```
     #[rhai_fn(return_raw)]
     pub fn spin(context: NativeCallContext, body: Body, rad_per_s: Number) -> RhaiResultOf<Body> {
         change(&context, body, |body| {
@@ -193,6 +238,10 @@ pub(crate) mod module {
     }
 
     /// The body's mass \[kg\], greater than 0. Default: 1.
+    ///
+    /// ```rhai
+    /// mobile("car").rect(4.2, 1.8).mass(1200);
+    /// ```
     #[rhai_fn(return_raw)]
     pub fn mass(context: NativeCallContext, body: Body, kg: Number) -> RhaiResultOf<Body> {
         let kg = number::positive("mass", &kg);
@@ -201,6 +250,10 @@ pub(crate) mod module {
 
     /// The body's moment of inertia about its centre \[kg·m²\], greater than 0. Default: that of its rectangles
     /// with the mass spread evenly.
+    ///
+    /// ```rhai
+    /// mobile("flywheel").rect(1, 1).mass(20).inertia(40);
+    /// ```
     #[rhai_fn(return_raw)]
     pub fn inertia(context: NativeCallContext, body: Body, kg_m2: Number) -> RhaiResultOf<Body> {
         let inertia = number::positive("inertia", &kg_m2);
@@ -208,6 +261,11 @@ pub(crate) mod module {
     }
 
     /// The body's own coefficient of restitution, 0 to 1, in place of the scene's. Impulse exchange only.
+    ///
+    /// ```rhai
+    /// exchange("impulse");
+    /// mobile("ball").rect(1, 1).restitution(0.9);
+    /// ```
     #[rhai_fn(name = "restitution", return_raw)]
     pub fn body_restitution(context: NativeCallContext, body: Body, e: Number) -> RhaiResultOf<Body> {
         let e = number::unit_range("restitution", &e);
@@ -215,6 +273,11 @@ pub(crate) mod module {
     }
 
     /// The body's own coefficient of friction, 0 or more, in place of the scene's. Impulse exchange only.
+    ///
+    /// ```rhai
+    /// exchange("impulse");
+    /// mobile("tyre").rect(1, 1).friction(1.2);
+    /// ```
     #[rhai_fn(name = "friction", return_raw)]
     pub fn body_friction(context: NativeCallContext, body: Body, mu: Number) -> RhaiResultOf<Body> {
         let mu = number::not_negative("friction", &mu);
@@ -222,6 +285,10 @@ pub(crate) mod module {
     }
 
     /// Gives the body a free label; it may have several. `world.tagged(text)` lists all bodies of a label.
+    ///
+    /// ```rhai
+    /// mobile("car1").rect(4.2, 1.8).tag("car").tag("red");
+    /// ```
     #[rhai_fn(return_raw)]
     pub fn tag(context: NativeCallContext, body: Body, text: Text) -> RhaiResultOf<Body> {
         on_body(&context, body, |draft| draft.add_tag(body.index, &number::label("tag", &text, LONGEST_NAME)?))

@@ -12,151 +12,151 @@ use crate::session::{RhaiResultOf, complain};
 
 #[export_module]
 pub(crate) mod module {
-    /// The constant `PI`, written as other scripts of the language write it.
+    /// The constant `PI`, written as other scripts of the language write it: `PI()` is 3.1416.
     #[rhai_fn(name = "PI")]
     pub fn pi() -> f64 {
         PI
     }
 
-    /// Degrees in radians: `deg(90)` is a right angle.
+    /// Degrees in radians: `deg(90)` is 1.5708, a right angle.
     #[rhai_fn(return_raw)]
     pub fn deg(context: NativeCallContext, x: Number) -> RhaiResultOf<f64> {
         real(&context, &x, |x| x / 180.0 * PI)
     }
 
-    /// Radians in degrees.
+    /// Radians in degrees: `to_degrees(PI)` is 180.
     #[rhai_fn(return_raw)]
     pub fn to_degrees(context: NativeCallContext, rad: Number) -> RhaiResultOf<f64> {
         real(&context, &rad, |rad| rad / PI * 180.0)
     }
 
-    /// The sine of an angle \[rad\].
+    /// The sine of an angle \[rad\]: `sin(deg(30))` is 0.5.
     #[rhai_fn(return_raw)]
     pub fn sin(context: NativeCallContext, rad: Number) -> RhaiResultOf<f64> {
         real(&context, &rad, libm::sin)
     }
 
-    /// The cosine of an angle \[rad\].
+    /// The cosine of an angle \[rad\]: `cos(deg(60))` is 0.5.
     #[rhai_fn(return_raw)]
     pub fn cos(context: NativeCallContext, rad: Number) -> RhaiResultOf<f64> {
         real(&context, &rad, libm::cos)
     }
 
-    /// The tangent of an angle \[rad\].
+    /// The tangent of an angle \[rad\]: `tan(deg(45))` is 1.
     #[rhai_fn(return_raw)]
     pub fn tan(context: NativeCallContext, rad: Number) -> RhaiResultOf<f64> {
         real(&context, &rad, libm::tan)
     }
 
-    /// The angle \[rad\] of a sine; NaN outside −1 … 1.
+    /// The angle \[rad\] of a sine, in −π/2 … π/2; NaN outside −1 … 1. `to_degrees(asin(0.5))` is 30.
     #[rhai_fn(return_raw)]
     pub fn asin(context: NativeCallContext, x: Number) -> RhaiResultOf<f64> {
         real(&context, &x, libm::asin)
     }
 
-    /// The angle \[rad\] of a cosine; NaN outside −1 … 1.
+    /// The angle \[rad\] of a cosine, in 0 … π; NaN outside −1 … 1. `to_degrees(acos(0.5))` is 60.
     #[rhai_fn(return_raw)]
     pub fn acos(context: NativeCallContext, x: Number) -> RhaiResultOf<f64> {
         real(&context, &x, libm::acos)
     }
 
-    /// The angle \[rad\] of a tangent, in −π/2 … π/2.
+    /// The angle \[rad\] of a tangent, in −π/2 … π/2: `to_degrees(atan(1))` is 45.
     #[rhai_fn(return_raw)]
     pub fn atan(context: NativeCallContext, x: Number) -> RhaiResultOf<f64> {
         real(&context, &x, libm::atan)
     }
 
-    /// The angle \[rad\] of the point (`x`, `y`), in −π … π. Mind the order: `atan2(z, x)`.
+    /// The angle \[rad\] of the point (`x`, `y`), in −π … π. Mind the order: `atan2(z, x)`. `to_degrees(atan2(1, 0))` is 90.
     #[rhai_fn(name = "atan2", name = "atan", return_raw)]
     pub fn atan2(context: NativeCallContext, y: Number, x: Number) -> RhaiResultOf<f64> {
         real_of_two(&context, &y, &x, libm::atan2)
     }
 
-    /// The hyperbolic sine.
+    /// The hyperbolic sine: `sinh(1)` is 1.175.
     #[rhai_fn(return_raw)]
     pub fn sinh(context: NativeCallContext, x: Number) -> RhaiResultOf<f64> {
         real(&context, &x, libm::sinh)
     }
 
-    /// The hyperbolic cosine.
+    /// The hyperbolic cosine: `cosh(1)` is 1.543.
     #[rhai_fn(return_raw)]
     pub fn cosh(context: NativeCallContext, x: Number) -> RhaiResultOf<f64> {
         real(&context, &x, libm::cosh)
     }
 
-    /// The hyperbolic tangent.
+    /// The hyperbolic tangent: `tanh(1)` is 0.762.
     #[rhai_fn(return_raw)]
     pub fn tanh(context: NativeCallContext, x: Number) -> RhaiResultOf<f64> {
         real(&context, &x, libm::tanh)
     }
 
-    /// The number of a hyperbolic sine.
+    /// The number of a hyperbolic sine: `asinh(1)` is 0.881.
     #[rhai_fn(return_raw)]
     pub fn asinh(context: NativeCallContext, x: Number) -> RhaiResultOf<f64> {
         real(&context, &x, libm::asinh)
     }
 
-    /// The number of a hyperbolic cosine; NaN below 1.
+    /// The number of a hyperbolic cosine; NaN below 1. `acosh(2)` is 1.317.
     #[rhai_fn(return_raw)]
     pub fn acosh(context: NativeCallContext, x: Number) -> RhaiResultOf<f64> {
         real(&context, &x, libm::acosh)
     }
 
-    /// The number of a hyperbolic tangent; NaN outside −1 … 1.
+    /// The number of a hyperbolic tangent; NaN outside −1 … 1. `atanh(0.5)` is 0.549.
     #[rhai_fn(return_raw)]
     pub fn atanh(context: NativeCallContext, x: Number) -> RhaiResultOf<f64> {
         real(&context, &x, libm::atanh)
     }
 
-    /// e to the power of `x`.
+    /// e to the power of `x`: `exp(1)` is 2.718.
     #[rhai_fn(return_raw)]
     pub fn exp(context: NativeCallContext, x: Number) -> RhaiResultOf<f64> {
         real(&context, &x, libm::exp)
     }
 
-    /// The natural logarithm; NaN below 0.
+    /// The natural logarithm; NaN below 0. `ln(E)` is 1.
     #[rhai_fn(return_raw)]
     pub fn ln(context: NativeCallContext, x: Number) -> RhaiResultOf<f64> {
         real(&context, &x, libm::log)
     }
 
-    /// The logarithm to base 10; NaN below 0.
+    /// The logarithm to base 10; NaN below 0. `log(1000)` is 3.
     #[rhai_fn(return_raw)]
     pub fn log(context: NativeCallContext, x: Number) -> RhaiResultOf<f64> {
         real(&context, &x, libm::log10)
     }
 
-    /// The logarithm to any base.
+    /// The logarithm to any base: `log(8, 2)` is 3.
     #[rhai_fn(name = "log", return_raw)]
     pub fn log_to_base(context: NativeCallContext, x: Number, base: Number) -> RhaiResultOf<f64> {
         real_of_two(&context, &x, &base, |x, base| libm::log(x) / libm::log(base))
     }
 
-    /// The square root; NaN below 0.
+    /// The square root; NaN below 0. `sqrt(9)` is 3.
     #[rhai_fn(return_raw)]
     pub fn sqrt(context: NativeCallContext, x: Number) -> RhaiResultOf<f64> {
         real(&context, &x, libm::sqrt)
     }
 
-    /// The length of the vector (`x`, `y`).
+    /// The length of the vector (`x`, `y`): `hypot(3, 4)` is 5.
     #[rhai_fn(return_raw)]
     pub fn hypot(context: NativeCallContext, x: Number, y: Number) -> RhaiResultOf<f64> {
         real_of_two(&context, &x, &y, libm::hypot)
     }
 
-    /// `x` to the power of `y`, as `x ** y`.
+    /// `x` to the power of `y`, as `x ** y`: `pow(2, 10)` is 1024.
     #[rhai_fn(return_raw)]
     pub fn pow(context: NativeCallContext, x: Number, y: Number) -> RhaiResultOf<Number> {
         power(&context, &x, &y)
     }
 
-    /// The number without its sign.
+    /// The number without its sign: `abs(-2)` is 2.
     #[rhai_fn(return_raw)]
     pub fn abs(context: NativeCallContext, x: Number) -> RhaiResultOf<Number> {
         kept(&context, &x, i64::checked_abs, libm::fabs)
     }
 
-    /// −1, 0 or 1.
+    /// −1, 0 or 1: `sign(-2)` is -1.
     #[rhai_fn(return_raw)]
     pub fn sign(context: NativeCallContext, x: Number) -> RhaiResultOf<Number> {
         let of_float = |x: f64| {
@@ -171,39 +171,39 @@ pub(crate) mod module {
         kept(&context, &x, |x| Some(x.signum()), of_float)
     }
 
-    /// The whole number next below, or the number itself.
+    /// The whole number next below, or the number itself: `floor(-1.5)` is -2.
     #[rhai_fn(return_raw)]
     pub fn floor(context: NativeCallContext, x: Number) -> RhaiResultOf<Number> {
         kept(&context, &x, Some, libm::floor)
     }
 
-    /// The whole number next above, or the number itself.
+    /// The whole number next above, or the number itself: `ceiling(1.2)` is 2.
     #[rhai_fn(return_raw)]
     pub fn ceiling(context: NativeCallContext, x: Number) -> RhaiResultOf<Number> {
         kept(&context, &x, Some, libm::ceil)
     }
 
-    /// The nearest whole number; halves away from 0.
+    /// The nearest whole number; halves away from 0: `round(2.5)` is 3.
     #[rhai_fn(return_raw)]
     pub fn round(context: NativeCallContext, x: Number) -> RhaiResultOf<Number> {
         kept(&context, &x, Some, libm::round)
     }
 
-    /// The smaller of two numbers.
+    /// The smaller of two numbers: `min(2, 3)` is 2.
     #[rhai_fn(return_raw)]
     pub fn min(context: NativeCallContext, a: Number, b: Number) -> RhaiResultOf<Number> {
         let (x, y) = both(&context, &a, &b)?;
         Ok(if y < x { b } else { a })
     }
 
-    /// The greater of two numbers.
+    /// The greater of two numbers: `max(2, 3)` is 3.
     #[rhai_fn(return_raw)]
     pub fn max(context: NativeCallContext, a: Number, b: Number) -> RhaiResultOf<Number> {
         let (x, y) = both(&context, &a, &b)?;
         Ok(if y > x { b } else { a })
     }
 
-    /// The number, kept from `least` to `greatest`.
+    /// The number, kept from `least` to `greatest`: `clamp(7, 0, 5)` is 5.
     #[rhai_fn(return_raw)]
     pub fn clamp(context: NativeCallContext, x: Number, least: Number, greatest: Number) -> RhaiResultOf<Number> {
         let (low, high) = both(&context, &least, &greatest)?;
@@ -258,25 +258,25 @@ pub(crate) mod module {
         one(&context, &x)
     }
 
-    /// The whole number a string says.
+    /// The whole number a string says: `parse_int("12")` is 12.
     #[rhai_fn(return_raw)]
     pub fn parse_int(context: NativeCallContext, text: Text) -> RhaiResultOf<i64> {
         parse(&context, &text, "a whole number")
     }
 
-    /// The number a string says.
+    /// The number a string says: `parse_float("1.5")` is 1.5.
     #[rhai_fn(return_raw)]
     pub fn parse_float(context: NativeCallContext, text: Text) -> RhaiResultOf<f64> {
         parse(&context, &text, "a number")
     }
 
-    /// Whether it is NaN, which no number is: 0.0/0.0.
+    /// Whether it is NaN, which no number is: `is_nan(0.0 / 0.0)` is true.
     #[rhai_fn(return_raw)]
     pub fn is_nan(context: NativeCallContext, x: Number) -> RhaiResultOf<bool> {
         Ok(one(&context, &x)?.is_nan())
     }
 
-    /// Whether it is neither infinite nor NaN.
+    /// Whether it is neither infinite nor NaN: `is_finite(1.0 / 0.0)` is false.
     #[rhai_fn(return_raw)]
     pub fn is_finite(context: NativeCallContext, x: Number) -> RhaiResultOf<bool> {
         Ok(one(&context, &x)?.is_finite())

@@ -44,9 +44,9 @@ pub(crate) struct Constant {
 
 /// Constants every script knows.
 pub(crate) const CONSTANTS: [Constant; 3] = [
-    Constant { name: "PI", value: std::f64::consts::PI, docs: "π: half a turn [rad]." },
-    Constant { name: "TAU", value: std::f64::consts::TAU, docs: "2π: a whole turn [rad]." },
-    Constant { name: "E", value: std::f64::consts::E, docs: "Euler's number." },
+    Constant { name: "PI", value: std::f64::consts::PI, docs: "π: half a turn [rad]. `PI` is 3.1416." },
+    Constant { name: "TAU", value: std::f64::consts::TAU, docs: "2π: a whole turn [rad]. `TAU` is 6.2832." },
+    Constant { name: "E", value: std::f64::consts::E, docs: "Euler's number: `E` is 2.7183." },
 ];
 
 /// The groups of words in the order of the manual.

@@ -14,6 +14,10 @@ use crate::session::{self, Phase, RhaiResultOf};
 #[export_module]
 pub(crate) mod module {
     /// Where the body's centre is along X \[m\]. Callbacks may write it.
+    ///
+    /// ```rhai
+    /// fn on_step(world) { if world["car"].x > 50 { world["car"].x -= 100; } }
+    /// ```
     #[rhai_fn(get = "x", pure, return_raw)]
     pub fn x(context: NativeCallContext, body: &mut Body) -> RhaiResultOf<f64> {
         of_body(&context, *body, "x", |body| body.at.0, |world, id| world.position(id).x)
@@ -25,6 +29,10 @@ pub(crate) mod module {
     }
 
     /// Where the body's centre is along Z \[m\]. Callbacks may write it.
+    ///
+    /// ```rhai
+    /// expect("it stays in its lane", |world| abs(world["car"].z) < 2);
+    /// ```
     #[rhai_fn(get = "z", pure, return_raw)]
     pub fn z(context: NativeCallContext, body: &mut Body) -> RhaiResultOf<f64> {
         of_body(&context, *body, "z", |body| body.at.1, |world, id| world.position(id).y)
@@ -36,6 +44,10 @@ pub(crate) mod module {
     }
 
     /// The body's angle \[rad\], in (−π, π] while running. Callbacks may write it.
+    ///
+    /// ```rhai
+    /// fn on_step(world) { if world.iteration == 1 { world["car"].angle = deg(90); } }
+    /// ```
     #[rhai_fn(get = "angle", pure, return_raw)]
     pub fn angle(context: NativeCallContext, body: &mut Body) -> RhaiResultOf<f64> {
         of_body(&context, *body, "angle", |body| body.angle, World::angle)
@@ -47,6 +59,10 @@ pub(crate) mod module {
     }
 
     /// The body's velocity along X \[m/s\]. Callbacks may write it, a fixed body's too: so a wall turns back.
+    ///
+    /// ```rhai
+    /// fn on_step(world) { if world["wall"].x > 6 { world["wall"].vx = -2; } }
+    /// ```
     #[rhai_fn(get = "vx", pure, return_raw)]
     pub fn vx(context: NativeCallContext, body: &mut Body) -> RhaiResultOf<f64> {
         of_body(&context, *body, "vx", |body| initial_velocity(body).x, |world, id| world.velocity(id).x)
@@ -58,6 +74,10 @@ pub(crate) mod module {
     }
 
     /// The body's velocity along Z \[m/s\]. Callbacks may write it, a fixed body's too.
+    ///
+    /// ```rhai
+    /// fn on_step(world) { if world["wall"].z > 6 { world["wall"].vz = -2; } }
+    /// ```
     #[rhai_fn(get = "vz", pure, return_raw)]
     pub fn vz(context: NativeCallContext, body: &mut Body) -> RhaiResultOf<f64> {
         of_body(&context, *body, "vz", |body| initial_velocity(body).y, |world, id| world.velocity(id).y)
@@ -69,6 +89,10 @@ pub(crate) mod module {
     }
 
     /// The body's spin \[rad/s\]. Callbacks may write it, a fixed body's too: so a blade stops.
+    ///
+    /// ```rhai
+    /// fn on_step(world) { if world.time > 2 { world["blade"].spin = 0; } }
+    /// ```
     #[rhai_fn(get = "spin", pure, return_raw)]
     pub fn spin(context: NativeCallContext, body: &mut Body) -> RhaiResultOf<f64> {
         of_body(&context, *body, "spin", |body| body.spin.unwrap_or(0.0), World::spin)
@@ -80,30 +104,50 @@ pub(crate) mod module {
     }
 
     /// How fast the body's centre moves \[m/s\].
+    ///
+    /// ```rhai
+    /// expect("it has slowed down", |world| world["car"].speed < 8);
+    /// ```
     #[rhai_fn(get = "speed", pure, return_raw)]
     pub fn speed(context: NativeCallContext, body: &mut Body) -> RhaiResultOf<f64> {
         of_body(&context, *body, "speed", |body| initial_velocity(body).norm(), |world, id| world.velocity(id).norm())
     }
 
     /// The body's mass \[kg\].
+    ///
+    /// ```rhai
+    /// fn on_step(world) { world["car"].push(0, 0.5 * world["car"].mass); }      // 0.5 m/s²
+    /// ```
     #[rhai_fn(get = "mass", pure, return_raw)]
     pub fn mass(context: NativeCallContext, body: &mut Body) -> RhaiResultOf<f64> {
         of_body(&context, *body, "mass", |body| body.mass.unwrap_or(1.0), World::mass)
     }
 
     /// The body's name.
+    ///
+    /// ```rhai
+    /// fn on_collision(world, hit) { print(hit.a.name + " meets " + hit.b.name); }
+    /// ```
     #[rhai_fn(get = "name", pure, return_raw)]
     pub fn name(context: NativeCallContext, body: &mut Body) -> RhaiResultOf<String> {
         told(&context, *body, |body| body.name.clone(), |world, id| world.name(id).to_owned())
     }
 
     /// `"mobile"` or `"fixed"`.
+    ///
+    /// ```rhai
+    /// fn on_collision(world, hit) { if hit.a.kind == "fixed" { print("a wall is hit"); } }
+    /// ```
     #[rhai_fn(get = "kind", pure, return_raw)]
     pub fn kind(context: NativeCallContext, body: &mut Body) -> RhaiResultOf<String> {
         told(&context, *body, |body| body.kind.word().to_owned(), |world, id| world.kind(id).word().to_owned())
     }
 
     /// A force on a mobile body's centre over this iteration \[N\]; several add up.
+    ///
+    /// ```rhai
+    /// fn on_step(world) { if world.time < 1 { world["car"].push(3000, 0); } }
+    /// ```
     #[rhai_fn(return_raw, pure)]
     pub fn push(context: NativeCallContext, body: &mut Body, fx: Number, fz: Number) -> RhaiResultOf<()> {
         command(&context, *body, |world, id| {
@@ -113,6 +157,10 @@ pub(crate) mod module {
     }
 
     /// A torque on a mobile body over this iteration \[N·m\], turning from +X towards +Z; several add up.
+    ///
+    /// ```rhai
+    /// fn on_step(world) { if world.time < 1 { world["car"].twist(500); } }
+    /// ```
     #[rhai_fn(return_raw, pure)]
     pub fn twist(context: NativeCallContext, body: &mut Body, torque: Number) -> RhaiResultOf<()> {
         command(&context, *body, |world, id| Ok(world.twist(id, number::any("twist: torque", &torque)?)?))

@@ -12,6 +12,10 @@ use crate::session::{self, Phase, RhaiResultOf};
 pub(crate) mod module {
     /// Starts the generator of random numbers anew from a whole number. Default: 0. The same seed gives the same
     /// numbers on every machine (the generator is SplitMix64). `--seed` wins over what the main part says.
+    ///
+    /// ```rhai
+    /// seed(7);
+    /// ```
     #[rhai_fn(return_raw)]
     pub fn seed(context: NativeCallContext, n: Number) -> RhaiResultOf<()> {
         session::with(&context, |session| {
@@ -28,7 +32,7 @@ pub(crate) mod module {
     /// A random number from `min` to `max`. Also in callbacks: they go on where the main part stopped.
     ///
     /// ```rhai
-    /// mobile("crate" + i).rect(1, 1).at(random(-10, 10), random(-10, 10));
+    /// for i in 0..5 { mobile("crate" + i).rect(1, 1).at(random(-10, 10), random(-10, 10)); }
     /// ```
     #[rhai_fn(return_raw)]
     pub fn random(context: NativeCallContext, min: Number, max: Number) -> RhaiResultOf<f64> {
@@ -40,6 +44,10 @@ pub(crate) mod module {
     }
 
     /// A random whole number from `min` to `max`, both included, each equally likely.
+    ///
+    /// ```rhai
+    /// let lane = random_int(0, 2);
+    /// ```
     #[rhai_fn(return_raw)]
     pub fn random_int(context: NativeCallContext, min: Number, max: Number) -> RhaiResultOf<i64> {
         session::with(&context, |session| {

@@ -41,7 +41,11 @@ pub(crate) mod module {
         set(&context, seconds, |settings, seconds| settings.time_step = seconds)
     }
 
-    /// How many iterations a run makes. Default: 600.
+    /// How many iterations a run makes, 0 or more. Default: 600.
+    ///
+    /// ```rhai
+    /// steps(240);
+    /// ```
     #[rhai_fn(return_raw)]
     pub fn steps(context: NativeCallContext, count: Number) -> RhaiResultOf<()> {
         let count = number::count("steps", &count);
@@ -50,6 +54,10 @@ pub(crate) mod module {
 
     /// μ_L of the document's exchange: the share of linear momentum that is handed over, 0 or more. Default: 1.
     /// `--set mu_l=…` wins over it.
+    ///
+    /// ```rhai
+    /// mu_l(0.9);
+    /// ```
     #[rhai_fn(return_raw)]
     pub fn mu_l(context: NativeCallContext, share: Number) -> RhaiResultOf<()> {
         let share = number::not_negative("mu_l", &share);
@@ -58,6 +66,10 @@ pub(crate) mod module {
 
     /// μ_A of the document's exchange: the share of angular momentum that is handed over, 0 or more. Default: 1.
     /// `--set mu_a=…` wins over it.
+    ///
+    /// ```rhai
+    /// mu_a(0.8);
+    /// ```
     #[rhai_fn(return_raw)]
     pub fn mu_a(context: NativeCallContext, share: Number) -> RhaiResultOf<()> {
         let share = number::not_negative("mu_a", &share);
@@ -66,6 +78,10 @@ pub(crate) mod module {
 
     /// ε of the document's relocation: the gap it leaves \[m\], 0 or more. Default: 0.001.
     /// `--set epsilon=…` wins over it. The impulse exchange does not relocate.
+    ///
+    /// ```rhai
+    /// epsilon(0.005);
+    /// ```
     #[rhai_fn(return_raw)]
     pub fn epsilon(context: NativeCallContext, gap: Number) -> RhaiResultOf<()> {
         let gap = number::not_negative("epsilon", &gap);
@@ -74,6 +90,10 @@ pub(crate) mod module {
 
     /// The height Y of the collision plane \[m\]. Default: 0. A body whose meshes do not cross it moves, but
     /// collides with nothing.
+    ///
+    /// ```rhai
+    /// plane(0.5);
+    /// ```
     #[rhai_fn(return_raw)]
     pub fn plane(context: NativeCallContext, height: Number) -> RhaiResultOf<()> {
         let height = number::finite("plane", &height);
@@ -82,6 +102,10 @@ pub(crate) mod module {
 
     /// How motion is handed over at a collision: `"document"`, the document's rules (the default), or
     /// `"impulse"`, Newton–Euler impulses with restitution and friction.
+    ///
+    /// ```rhai
+    /// exchange("impulse");
+    /// ```
     #[rhai_fn(return_raw)]
     pub fn exchange(context: NativeCallContext, rule: Choice) -> RhaiResultOf<()> {
         let rule = choose("exchange", &rule, ExchangeRule::WORDS, ExchangeRule::from_word);
@@ -90,6 +114,10 @@ pub(crate) mod module {
 
     /// How overlaps are found: `"vertices"`, a vertex of one inside the other (the default of the document's
     /// exchange), or `"complete"`, every overlap (the default of the impulse exchange).
+    ///
+    /// ```rhai
+    /// detection("complete");
+    /// ```
     #[rhai_fn(return_raw)]
     pub fn detection(context: NativeCallContext, way: Choice) -> RhaiResultOf<()> {
         let way = choose("detection", &way, Detection::WORDS, Detection::from_word);
@@ -98,6 +126,10 @@ pub(crate) mod module {
 
     /// When collisions are treated: `"stepped"`, after each step (the default), or `"continuous"`, at the moment
     /// of impact, so that nothing passes through anything.
+    ///
+    /// ```rhai
+    /// motion("continuous");
+    /// ```
     #[rhai_fn(return_raw)]
     pub fn motion(context: NativeCallContext, rule: Choice) -> RhaiResultOf<()> {
         let rule = choose("motion", &rule, MotionRule::WORDS, MotionRule::from_word);
@@ -130,6 +162,10 @@ pub(crate) mod module {
 
     /// How the pairs worth testing are found: `"auto"` (the default), `"all_pairs"` or `"strips"`. The result is
     /// the same; only the time it takes is not.
+    ///
+    /// ```rhai
+    /// broad_phase("strips");
+    /// ```
     #[rhai_fn(return_raw)]
     pub fn broad_phase(context: NativeCallContext, way: Choice) -> RhaiResultOf<()> {
         let way = choose("broad_phase", &way, BroadPhaseChoice::WORDS, BroadPhaseChoice::from_word);
@@ -138,6 +174,11 @@ pub(crate) mod module {
 
     /// The coefficient of restitution of the impulse exchange, 0 (nothing bounces) to 1 (all of it). Default: 0.
     /// A body may have its own. `--set restitution=…` wins over it.
+    ///
+    /// ```rhai
+    /// exchange("impulse");
+    /// restitution(0.5);
+    /// ```
     #[rhai_fn(name = "restitution", return_raw)]
     pub fn scene_restitution(context: NativeCallContext, e: Number) -> RhaiResultOf<()> {
         let e = number::unit_range("restitution", &e);
@@ -146,6 +187,11 @@ pub(crate) mod module {
 
     /// The coefficient of friction of the impulse exchange, 0 or more. Default: 0. A body may have its own.
     /// `--set friction=…` wins over it.
+    ///
+    /// ```rhai
+    /// exchange("impulse");
+    /// friction(0.6);
+    /// ```
     #[rhai_fn(name = "friction", return_raw)]
     pub fn scene_friction(context: NativeCallContext, mu: Number) -> RhaiResultOf<()> {
         let mu = number::not_negative("friction", &mu);
@@ -153,6 +199,10 @@ pub(crate) mod module {
     }
 
     /// The acceleration of every mobile body \[m/s²\]. Default: none.
+    ///
+    /// ```rhai
+    /// gravity(0, -9.81);
+    /// ```
     #[rhai_fn(return_raw)]
     pub fn gravity(context: NativeCallContext, x: Number, z: Number) -> RhaiResultOf<()> {
         let acceleration = number::pair(number::finite, ("gravity: x", &x), ("gravity: z", &z));
@@ -161,6 +211,10 @@ pub(crate) mod module {
 
     /// How fast the velocity and the spin of mobile bodies decay \[1/s\], 0 or more, as an exact exponential.
     /// Default: not at all.
+    ///
+    /// ```rhai
+    /// drag(0.4, 1);
+    /// ```
     #[rhai_fn(return_raw)]
     pub fn drag(context: NativeCallContext, linear: Number, angular: Number) -> RhaiResultOf<()> {
         let rates = number::pair(number::not_negative, ("drag: linear", &linear), ("drag: angular", &angular));

@@ -3,7 +3,7 @@
 use choque_scripting::{Options, Scenario};
 use insta::assert_snapshot;
 
-use crate::support::{Folder, error, error_with, set, while_running};
+use crate::support::{Folder, error, error_in, error_with, scene, set, while_running};
 
 #[test]
 fn a_misspelt_name_finds_its_word() {
@@ -96,6 +96,47 @@ fn a_misspelt_name_finds_its_word() {
     --> scene.rhai
      = help: did you mean `push`?
     "#);
+}
+
+/// Rhai would call the function and never the word.
+#[test]
+fn a_function_does_not_hide_a_word() {
+    assert_snapshot!(error("fn at(a, b) { a + b }\nmobile(\"car\").rect(1, 1).at(3, 4);"), @r#"
+    error: fn at(a, b) would be called where `.at` is written
+     --> scene.rhai:1:4
+      |
+    1 | fn at(a, b) { a + b }
+      |    ^^
+      |
+      = help: `at` is a word: give the function another name
+    "#);
+    let files = [
+        ("scene.rhai", "import \"cars\" as c;\nc::car(1);"),
+        ("cars.rhai", "fn mass(i) { 100 * i }\nfn car(i) { mobile(\"car\" + i).rect(1, 1).mass(mass(i)) }"),
+    ];
+    assert_snapshot!(error_in(&files, &Options::default()), @r#"
+    error: fn mass(i) would be called where `.mass` is written
+     --> cars.rhai:1:4
+      |
+    1 | fn mass(i) { 100 * i }
+      |    ^^^^
+      |
+      = note: imported at scene.rhai:1:8
+      = help: `mass` is a word: give the function another name
+    "#);
+    scene("fn at(world) { world.time }\nmobile(\"car\").rect(1, 1).at(3, 4);");
+    scene("fn mass(i) { 100 * i }\nmobile(\"car\").rect(1, 1).at(mass(1), 0);");
+}
+
+/// Endings that agree are no likeness.
+#[test]
+fn a_file_is_suggested_for_its_own_name_only() {
+    let import = |name: &str| {
+        let script = format!("import \"{name}\" as n;");
+        error_in(&[("scene.rhai", &script), ("bom.rhai", ""), ("vehicles.rhai", "")], &Options::default())
+    };
+    assert!(!import("nope").contains("did you mean"));
+    assert!(import("vehicels").contains("did you mean \"vehicles.rhai\"?"));
 }
 
 #[test]

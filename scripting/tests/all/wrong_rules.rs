@@ -161,6 +161,13 @@ fn bodies_that_contradict_themselves_are_refused() {
       |
       = help: leave out .spin or .swing
     "#);
+    assert_snapshot!(error("fixed(\"a\").patrol([[1]], 1);"), @r#"
+    error: body "a": patrol, entry 0 must be [x, z], not 1 number
+     --> scene.rhai:1:12
+      |
+    1 | fixed("a").patrol([[1]], 1);
+      |            ^^^^^^
+    "#);
     assert_snapshot!(error("fixed(\"a\").patrol([[1, 1, 1]], 1);"), @r#"
     error: body "a": patrol, entry 0 must be [x, z], not 3 numbers
      --> scene.rhai:1:12

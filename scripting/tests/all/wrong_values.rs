@@ -42,6 +42,13 @@ fn a_wrong_type_names_the_argument() {
     1 | steps(1.5);
       | ^^^^^
     "#);
+    assert_snapshot!(error("steps(1e18);"), @r#"
+    error: steps must be between -9007199254740992 and 9007199254740992, not 1e18
+     --> scene.rhai:1:1
+      |
+    1 | steps(1e18);
+      | ^^^^^
+    "#);
     assert_snapshot!(error("sleeping(1);"), @r#"
     error: sleeping must be true or false, not a whole number
      --> scene.rhai:1:1
