@@ -75,11 +75,12 @@ pub fn run(arguments: &RunArguments) -> Result<Verdict, Error> {
     run.set_threads(arguments.threads);
     tell_notes(&scenario, &run.world());
     let settings = Settings { every: arguments.record_every, ledger: true, command: about::this_call() };
-    let recorder = arguments.record.as_ref().map(|_| Recorder::into_file(&scenario, &mut run, &settings));
+    let into_file = |path: &PathBuf| Recorder::into_file(&scenario, &mut run, &settings, path);
+    let recorder = arguments.record.as_ref().map(into_file).transpose()?;
     let mut watcher = Watcher {
         recorder,
         meetings: FirstMeetings::new(MEETINGS),
-        rows: arguments.ledger.as_ref().map(|_| Rows::begin()),
+        rows: arguments.ledger.as_ref().map(|path| Rows::begin(path)).transpose()?,
         progress: Progress::new(run.world().plan().steps),
     };
     let played = play(&mut run, &mut watcher);
@@ -94,8 +95,8 @@ pub fn run(arguments: &RunArguments) -> Result<Verdict, Error> {
             hint: "look for a huge mass or velocity".to_owned(),
         });
     }
-    if let Some((rows, path)) = rows.zip(arguments.ledger.as_ref()) {
-        rows.write(path)?;
+    if let Some(rows) = rows {
+        rows.finish()?;
     }
     if let Some((recorder, path)) = recorder.zip(arguments.record.as_ref()) {
         recorder.finish(&world, &outcome.expectations, path)?;

@@ -8,7 +8,6 @@ use crate::bodies::{Bodies, Motion};
 use crate::broad_phase::BroadPhase;
 use crate::contact::Contacts;
 use crate::continuous::Continuous;
-use crate::detect::overlap;
 use crate::detect::seams::Seams;
 use crate::detect::sides::Sides;
 use crate::directory::Directory;
@@ -229,6 +228,7 @@ impl World {
     }
 
     /// Where its centre O is \[m\].
+    #[inline]
     #[must_use]
     pub fn position(&self, id: BodyId) -> Vec2 {
         let frame = self.path_now(id.index()).map_or(self.bodies.frame[id.index()], |path| path.frame);
@@ -236,6 +236,7 @@ impl World {
     }
 
     /// Its angle \[rad\], in (−π, π].
+    #[inline]
     #[must_use]
     pub fn angle(&self, id: BodyId) -> f64 {
         match self.path_now(id.index()) {
@@ -245,31 +246,21 @@ impl World {
     }
 
     /// Velocity of its centre \[m/s\].
+    #[inline]
     #[must_use]
     pub fn velocity(&self, id: BodyId) -> Vec2 {
         self.motion_now(id.index()).v
     }
 
     /// Its spin \[rad/s\].
+    #[inline]
     #[must_use]
     pub fn spin(&self, id: BodyId) -> f64 {
         self.motion_now(id.index()).omega
     }
 
-    /// Deepest overlap of any pair that can collide, now \[m\], by separating axes: also of a pair the vertex
-    /// test does not see. 0 when nothing overlaps.
-    #[must_use]
-    pub fn deepest(&self) -> f64 {
-        let mut broad_phase = BroadPhase::new(self.plan.broad_phase);
-        let mut deepest: f64 = 0.0;
-        let bodies = self.bodies_now();
-        broad_phase.visit(&bodies, &mut Work::default(), |i, j, _| {
-            deepest = deepest.max(overlap::between(&bodies, i, j));
-        });
-        deepest
-    }
-
     /// How a body moves now, also while an iteration is under way.
+    #[inline]
     pub(crate) fn motion_now(&self, body: usize) -> Motion {
         self.path_now(body).map_or(self.bodies.motion[body], |path| path.motion)
     }

@@ -10,16 +10,15 @@
 //!
 //! Contacts that last are no exchanges and have no rows; what they change is in the totals.
 
-use std::fs::File;
-use std::io::{self, Seek};
-use std::path::Path;
+use std::io;
+use std::path::{Path, PathBuf};
 
 use choque_engine::ledger::{Cause, Entry};
 use choque_engine::{Hit, PairKind, World};
 
 use crate::Error;
 use crate::play::Watch;
-use crate::written::{self, Kind};
+use crate::written::{Kind, Nameless};
 
 /// How a file of rows is named.
 pub const LEDGER: Kind = Kind { what: "ledger", extension: "csv", flag: "--ledger" };
@@ -32,34 +31,29 @@ const CAUSES: [Cause; 6] =
 #[derive(Debug)]
 pub struct Rows {
     /// Or what went wrong first; it is told in the end.
-    rows: io::Result<csv::Writer<File>>,
+    rows: io::Result<csv::Writer<Nameless>>,
+    path: PathBuf,
 }
 
 impl Rows {
-    /// None yet, under their headings.
-    #[must_use]
-    pub fn begin() -> Self {
-        let open = || {
-            let mut rows = csv::Writer::from_writer(tempfile::tempfile()?);
-            rows.write_record(headings())?;
-            Ok(rows)
-        };
-        Rows { rows: open() }
-    }
-
-    /// Writes all rows to a file, whole or not at all.
+    /// None yet, under their headings; the file gets its name in the end.
     ///
     /// # Errors
     /// A file that cannot be written.
-    pub fn write(self, path: &Path) -> Result<(), Error> {
-        let gather = |rows: csv::Writer<File>| {
-            let mut file = rows.into_inner().map_err(|error| error.into_error())?;
-            file.rewind()?;
-            Ok(file)
-        };
-        let file = self.rows.and_then(gather);
-        let file = file.map_err(|source| Error::File { verb: "write", path: path.to_owned(), source })?;
-        written::replace(path, file)
+    pub fn begin(path: &Path) -> Result<Self, Error> {
+        let mut rows = csv::Writer::from_writer(Nameless::to_become(path)?);
+        let headed = rows.write_record(headings());
+        Ok(Rows { rows: headed.map(|()| rows).map_err(io::Error::from), path: path.to_owned() })
+    }
+
+    /// Gives the file of all rows its name.
+    ///
+    /// # Errors
+    /// A file that cannot be written.
+    pub fn finish(self) -> Result<(), Error> {
+        let whole = |rows: csv::Writer<Nameless>| rows.into_inner().map_err(|error| error.into_error());
+        let file = self.rows.and_then(whole);
+        file.map_err(|source| Error::File { verb: "write", path: self.path, source })?.give_name()
     }
 }
 

@@ -6,7 +6,7 @@
 //! | a quantity over two others, as colours | [`heat_map`] |
 //! | axes and ticks; labels where there is room | [`axis`], `labels` |
 //! | colours, dashes, markers | [`palette`] |
-//! | text, as strokes of a pen | [`lettering`], [`glyphs`] |
+//! | text, as strokes of a pen | [`lettering`], [`glyphs`], `marks` |
 //! | shapes on a page, and what they are written as | [`drawing`], [`svg`], [`raster`] |
 
 pub mod axis;
@@ -16,6 +16,7 @@ pub mod glyphs;
 pub mod heat_map;
 pub(crate) mod labels;
 pub mod lettering;
+mod marks;
 pub mod palette;
 pub mod raster;
 pub mod svg;

@@ -1,7 +1,8 @@
 //! Frames as bytes and back. A block holds several; what a frame is expected to be carries over from block to block.
 //!
-//! Three packs a block: what stands once in a frame; the bodies, column by column and body by body, so that what repeats
-//! stands together; what happened. Everything that is a number is written as its distance from what was expected.
+//! Three packs a block: what stands once in a frame; the bodies, column by column in the order of [`ORDER`] and body by body, so
+//! that what repeats stands together; what happened. Everything that is a number is written as its distance from what
+//! was expected.
 
 use std::ops::Range;
 
@@ -9,7 +10,7 @@ use choque_engine::PairKind;
 
 use super::foretold::{Course, ORDER};
 use super::frame::{Books, Command, Frame, Push, State, Strike, Totals, Touch};
-use super::pack::{Pack, Unpack};
+use super::pack::{Pack, Unpack, append};
 
 /// What writer and reader both know of the frames before.
 pub(super) struct Memory {
@@ -46,22 +47,76 @@ impl Memory {
     }
 }
 
-/// A block's bytes, and where those stand that deflate to nothing less.
-pub(super) fn write(frames: &[Frame], memory: &mut Memory) -> (Vec<u8>, [Range<usize>; 3]) {
-    let (mut once, mut events) = (Pack::default(), Pack::default());
-    once.put(frames.len() as u64);
-    let first = memory.iteration;
-    for frame in frames {
-        write_once(frame, memory, &mut once);
+/// A block being written, and the room of the one before.
+#[derive(Default)]
+pub(super) struct Block {
+    pub(super) bytes: Vec<u8>,
+    /// Where those stand that deflate to nothing less.
+    pub(super) surprises: [Range<usize>; 3],
+    once: Pack,
+    columns: [Pack; State::COUNT],
+    events: Pack,
+    /// From each frame to the next \[s\].
+    times: Vec<f64>,
+    /// One body's numbers, frame after frame.
+    numbers: [Vec<f64>; State::COUNT],
+}
+
+impl Block {
+    /// Puts frames in the place of what it held.
+    pub(super) fn write(&mut self, frames: &[Frame], memory: &mut Memory) {
+        let Block { once, columns, events, .. } = self;
+        [&mut *once, events].into_iter().chain(columns).for_each(Pack::clear);
+        once.put(frames.len() as u64);
+        let first = memory.iteration;
+        for frame in frames {
+            write_once(frame, memory, once);
+        }
+        self.write_states(frames, first, memory);
+        let Block { bytes, surprises, once, columns, events, .. } = self;
+        for frame in frames {
+            write_events(frame, memory, events);
+            memory.states.copy_from_slice(&frame.states);
+        }
+        bytes.clear();
+        let columns = ORDER.map(|column| &columns[column]);
+        *surprises = [[&*once].as_slice(), &columns, &[events]].map(|packs| append(packs, bytes));
     }
-    let bodies = write_states(frames, first, memory);
-    for frame in frames {
-        write_events(frame, memory, &mut events);
-        memory.states.copy_from_slice(&frame.states);
+
+    /// Packed body by body, each column for itself: frames are many and far apart in memory. `first` is the iteration of the frame
+    /// before the first.
+    fn write_states(&mut self, frames: &[Frame], first: u64, memory: &mut Memory) {
+        let Block { columns, times, numbers, .. } = self;
+        let before = [first].into_iter().chain(frames.iter().map(|frame| frame.iteration));
+        let iterations = frames.iter().zip(before).map(|(frame, before)| frame.iteration.wrapping_sub(before));
+        times.clear();
+        times.extend(iterations.map(|iterations| iterations as f64 * memory.time_step));
+        for (body, (course, last)) in memory.courses.iter_mut().zip(&memory.states).enumerate() {
+            numbers.iter_mut().for_each(Vec::clear);
+            for state in frames.iter().map(|frame| frame.states[body].to_array()) {
+                numbers.iter_mut().zip(state).for_each(|(numbers, number)| numbers.push(number));
+            }
+            let last = last.to_array();
+            for (column, pack) in columns.iter_mut().enumerate() {
+                let mut seen = course.columns[column];
+                if column >= 3 {
+                    for number in &numbers[column] {
+                        pack.put_near(seen.velocity(), *number);
+                        seen.see_velocity(*number);
+                    }
+                } else {
+                    let mut before = last[column + 3];
+                    for ((time, number), velocity) in times.iter().zip(&numbers[column]).zip(&numbers[column + 3]) {
+                        let expected = seen.place(column, 0.5 * (before + velocity), *time);
+                        pack.put_near(expected.value, *number);
+                        seen.see_place(expected, *number);
+                        before = *velocity;
+                    }
+                }
+                course.columns[column] = seen;
+            }
+        }
     }
-    let mut block = Vec::new();
-    let surprises = [once, bodies, events].map(|pack| pack.append_to(&mut block));
-    (block, surprises)
 }
 
 /// `None` when the bytes are not what [`write`] gives.
@@ -88,14 +143,15 @@ fn write_once(frame: &Frame, memory: &mut Memory, pack: &mut Pack) {
         pack.put_near(*last, total);
         *last = total;
     }
-    let numbers: Vec<f64> = frame.books.iter().flat_map(|books| books.booked.iter().flatten().copied()).collect();
     pack.put(frame.books.as_ref().map_or(0, |books| books.booked.len() as u64 + 1));
     if let Some(books) = &frame.books {
         pack.put(books.relocations);
-        let numbers: Vec<f64> = numbers.into_iter().chain([books.relocated]).collect();
-        memory.books.resize(numbers.len(), 0.0);
-        memory.books.iter().zip(&numbers).for_each(|(last, number)| pack.put_near(*last, *number));
-        memory.books = numbers;
+        memory.books.resize(4 * books.booked.len() + 1, 0.0);
+        let numbers = books.booked.iter().flatten().chain([&books.relocated]);
+        for (last, number) in memory.books.iter_mut().zip(numbers) {
+            pack.put_near(*last, *number);
+            *last = *number;
+        }
     }
 }
 
@@ -124,43 +180,6 @@ fn read_books(causes: usize, memory: &mut Memory, pack: &mut Unpack) -> Option<B
     let (relocated, booked) = memory.books.split_last()?;
     let (booked, _) = booked.as_chunks();
     Some(Books { booked: booked.to_vec(), relocated: *relocated, relocations })
-}
-
-/// Column by column in the order of [`ORDER`]; `first` is the iteration of the frame before the first. Packed body by body, each
-/// column for itself: frames are many and far apart in memory.
-fn write_states(frames: &[Frame], first: u64, memory: &mut Memory) -> Pack {
-    let count = frames.len() * memory.courses.len();
-    let mut columns = [(); State::COUNT].map(|()| Pack::with_room(count));
-    let mut numbers: Vec<(f64, [f64; State::COUNT])> = Vec::with_capacity(frames.len());
-    for (body, (course, last)) in memory.courses.iter_mut().zip(&memory.states).enumerate() {
-        let mut before = first;
-        numbers.clear();
-        numbers.extend(frames.iter().map(|frame| {
-            let iterations = frame.iteration.wrapping_sub(before);
-            before = frame.iteration;
-            (iterations as f64 * memory.time_step, frame.states[body].to_array())
-        }));
-        for (column, pack) in columns.iter_mut().enumerate() {
-            let course = &mut course.columns[column];
-            let mut before = last.to_array();
-            for (time, now) in &numbers {
-                let number = now[column];
-                if column >= 3 {
-                    pack.put_near(course.velocity(), number);
-                    course.see_velocity(number);
-                } else {
-                    let mean = 0.5 * (before[column + 3] + now[column + 3]);
-                    let expected = course.place(column, mean, *time);
-                    pack.put_near(expected.value, number);
-                    course.see_place(expected, number);
-                }
-                before = *now;
-            }
-        }
-    }
-    let mut all = Pack::with_room(State::COUNT * count);
-    ORDER.into_iter().for_each(|column| all.append(&columns[column]));
-    all
 }
 
 fn read_states(frames: &mut [Frame], first: u64, memory: &mut Memory, pack: &mut Unpack) -> Option<()> {
@@ -204,8 +223,8 @@ fn write_events(frame: &Frame, memory: &mut Memory, pack: &mut Pack) {
         let kind = KINDS.iter().position(|kind| *kind == hit.kind).unwrap_or(0);
         [hit.a.into(), hit.b.into(), kind as u64].into_iter().for_each(|number| pack.put(number));
         let [a, b] = [hit.a, hit.b].map(|body| of(frame, body));
-        put_numbers(pack, [a.x, a.z], hit.point);
-        put_numbers(pack, [0.0; 2], hit.normal);
+        pack.put_all_near([a.x, a.z], hit.point);
+        pack.put_all_near([0.0; 2], hit.normal);
         pack.put_near(0.0, hit.depth);
         put_state(pack, &a, &hit.after[0]);
         put_state(pack, &b, &hit.after[1]);
@@ -219,7 +238,7 @@ fn write_events(frame: &Frame, memory: &mut Memory, pack: &mut Pack) {
     pack.put(frame.pushes.len() as u64);
     for push in &frame.pushes {
         pack.put(push.body.into());
-        put_numbers(pack, [0.0; 2], push.force);
+        pack.put_all_near([0.0; 2], push.force);
         pack.put_near(0.0, push.torque);
     }
     pack.put(frame.listed.len() as u64);
@@ -279,7 +298,8 @@ fn write_touches(touches: &[Touch], memory: &mut Memory, pack: &mut Pack) {
             pack.put((last.to_bits() ^ number.to_bits()).into());
         }
     }
-    memory.touches = touches.to_vec();
+    memory.touches.clear();
+    memory.touches.extend_from_slice(touches);
 }
 
 fn read_touches(memory: &mut Memory, pack: &mut Unpack) -> Option<Vec<Touch>> {
@@ -312,15 +332,11 @@ fn of(frame: &Frame, body: u32) -> State {
 }
 
 fn put_state(pack: &mut Pack, expected: &State, state: &State) {
-    put_numbers(pack, expected.to_array(), state.to_array());
+    pack.put_all_near(expected.to_array(), state.to_array());
 }
 
 fn get_state(pack: &mut Unpack, expected: &State) -> Option<State> {
     get_numbers(pack, expected.to_array()).map(State::from_array)
-}
-
-fn put_numbers<const N: usize>(pack: &mut Pack, expected: [f64; N], numbers: [f64; N]) {
-    expected.into_iter().zip(numbers).for_each(|(expected, number)| pack.put_near(expected, number));
 }
 
 fn get_numbers<const N: usize>(pack: &mut Unpack, mut expected: [f64; N]) -> Option<[f64; N]> {

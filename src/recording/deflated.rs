@@ -8,37 +8,50 @@ use flate2::{Compress, Compression, FlushCompress};
 /// Bytes in a stored block of RFC 1951 at most.
 const STORED: usize = 0xffff;
 
-/// One stream as RFC 1951 has it; the ranges, in order, as they are.
-pub(super) fn deflated(content: &[u8], stored: &[Range<usize>]) -> io::Result<Vec<u8>> {
-    let mut deflate = Compress::new(Compression::fast(), false);
-    let mut packed = Vec::with_capacity(content.len() / 2);
-    let mut at = 0;
-    for range in stored.iter().filter(|range| !range.is_empty()) {
-        // A flush ends at a whole byte; what comes after it refers to nothing before.
-        pack(&mut deflate, &content[at..range.start], FlushCompress::Full, &mut packed)?;
-        for chunk in content[range.clone()].chunks(STORED) {
-            let length = chunk.len() as u16;
-            packed.push(0);
-            packed.extend_from_slice(&length.to_le_bytes());
-            packed.extend_from_slice(&(!length).to_le_bytes());
-            packed.extend_from_slice(chunk);
-        }
-        deflate.reset();
-        at = range.end;
-    }
-    pack(&mut deflate, &content[at..], FlushCompress::Finish, &mut packed)?;
-    Ok(packed)
+/// Deflates one content after the other in the same room.
+pub(super) struct Deflater {
+    deflate: Compress,
+    packed: Vec<u8>,
 }
 
-fn pack(deflate: &mut Compress, mut content: &[u8], flush: FlushCompress, packed: &mut Vec<u8>) -> io::Result<()> {
-    loop {
-        packed.reserve(content.len() + 64);
-        let before = deflate.total_in();
-        deflate.compress_vec(content, packed, flush)?;
-        content = &content[(deflate.total_in() - before) as usize..];
-        // Room is left only where nothing waited to be written.
-        if content.is_empty() && packed.len() < packed.capacity() {
-            return Ok(());
+impl Deflater {
+    pub(super) fn new() -> Self {
+        Deflater { deflate: Compress::new(Compression::fast(), false), packed: Vec::new() }
+    }
+
+    /// One stream as RFC 1951 has it; the ranges, in order, as they are.
+    pub(super) fn deflate(&mut self, content: &[u8], stored: &[Range<usize>]) -> io::Result<&[u8]> {
+        self.packed.clear();
+        let mut at = 0;
+        for range in stored.iter().filter(|range| !range.is_empty()) {
+            // A flush ends at a whole byte; what comes after it refers to nothing before.
+            self.pack(&content[at..range.start], FlushCompress::Full)?;
+            for chunk in content[range.clone()].chunks(STORED) {
+                let length = chunk.len() as u16;
+                self.packed.push(0);
+                self.packed.extend_from_slice(&length.to_le_bytes());
+                self.packed.extend_from_slice(&(!length).to_le_bytes());
+                self.packed.extend_from_slice(chunk);
+            }
+            self.deflate.reset();
+            at = range.end;
+        }
+        self.pack(&content[at..], FlushCompress::Finish)?;
+        self.deflate.reset();
+        Ok(&self.packed)
+    }
+
+    fn pack(&mut self, mut content: &[u8], flush: FlushCompress) -> io::Result<()> {
+        let Deflater { deflate, packed } = self;
+        loop {
+            packed.reserve(content.len() + 64);
+            let before = deflate.total_in();
+            deflate.compress_vec(content, packed, flush)?;
+            content = &content[(deflate.total_in() - before) as usize..];
+            // Room is left only where nothing waited to be written.
+            if content.is_empty() && packed.len() < packed.capacity() {
+                return Ok(());
+            }
         }
     }
 }
@@ -57,12 +70,19 @@ mod tests {
             (0..200_000u32).map(|i| if i < 90_000 { 7 } else { (i.wrapping_mul(i) >> 7) as u8 }).collect();
         let surprises = 90_000..200_000;
         let cases: [&[Range<usize>]; 4] = [&[], &[0..0, surprises.clone()], &[0..10, 90_000..160_000], &[5..5, 6..7]];
+        let mut deflater = Deflater::new();
         for stored in cases {
-            let packed = deflated(&content, stored).expect("it deflates");
+            let packed = deflater.deflate(&content, stored).expect("it deflates");
             let mut back = Vec::new();
-            DeflateDecoder::new(packed.as_slice()).read_to_end(&mut back).expect("it inflates");
+            DeflateDecoder::new(packed).read_to_end(&mut back).expect("it inflates");
             assert!(back == content, "{stored:?}");
         }
-        assert!(deflated(&content, std::slice::from_ref(&surprises)).expect("it deflates").len() < 111_000);
+        let packed = deflater.deflate(&content, std::slice::from_ref(&surprises)).expect("it deflates");
+        assert!(packed.len() < 111_000);
+        assert_eq!(
+            packed,
+            Deflater::new().deflate(&content, &[surprises]).expect("it deflates"),
+            "nothing is remembered"
+        );
     }
 }

@@ -22,11 +22,11 @@ use flate2::{Crc, read::DeflateDecoder};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use super::block::{self, Memory};
-use super::deflated::deflated;
+use super::block::{self, Block, Memory};
+use super::deflated::Deflater;
 use super::error::{Broken, Wrong};
 use super::{About, Body, Ending, Frame, Recording};
-use crate::written::{self, Kind};
+use crate::written::Kind;
 use crate::{Error, written::replace};
 
 /// The format that is written, and the newest that is read.
@@ -45,8 +45,8 @@ const HEAD: usize = 24;
 
 /// States in a block: enough to deflate well, few enough to stay in a processor's cache.
 const STATES_A_BLOCK: usize = 1 << 14;
-/// Frames in a block at most.
-const FRAMES_A_BLOCK: usize = 1 << 10;
+/// Frames in a block at most: of few bodies too a block is packed while the run goes on, and not all of them at its end.
+const FRAMES_A_BLOCK: usize = 1 << 7;
 
 impl Recording {
     /// Reads a recording.
@@ -110,8 +110,9 @@ impl Recording {
 
 /// Writes a recording as it comes about.
 pub(super) struct Writer<W> {
-    out: W,
+    out: Sections<W>,
     memory: Memory,
+    block: Block,
     waiting: Vec<Frame>,
     /// Frames that are written, emptied.
     spent: Vec<Frame>,
@@ -119,15 +120,17 @@ pub(super) struct Writer<W> {
 }
 
 impl<W: Write> Writer<W> {
-    pub(super) fn begin(mut out: W, about: &About, bodies: &[Body]) -> io::Result<Self> {
-        out.write_all(BEGINNING)?;
-        out.write_all(&FORMAT.to_le_bytes())?;
-        put_text(&mut out, RUN, about)?;
-        put_text(&mut out, BODIES, &bodies)?;
+    pub(super) fn begin(out: W, about: &About, bodies: &[Body]) -> io::Result<Self> {
+        let mut out = Sections { out, deflater: Deflater::new() };
+        out.out.write_all(BEGINNING)?;
+        out.out.write_all(&FORMAT.to_le_bytes())?;
+        out.put_text(RUN, about)?;
+        out.put_text(BODIES, &bodies)?;
         let a_block = (STATES_A_BLOCK / bodies.len().max(1)).clamp(1, FRAMES_A_BLOCK);
         Ok(Writer {
             out,
             memory: Memory::new(about.time_step, bodies.len()),
+            block: Block::default(),
             waiting: Vec::new(),
             spent: Vec::new(),
             a_block,
@@ -145,34 +148,42 @@ impl<W: Write> Writer<W> {
     }
 
     fn put_block(&mut self) -> io::Result<()> {
-        let (block, surprises) = block::write(&self.waiting, &mut self.memory);
+        self.block.write(&self.waiting, &mut self.memory);
         self.spent.extend(self.waiting.drain(..).map(Frame::emptied));
-        put(&mut self.out, FRAMES, &block, &surprises)
+        self.out.put(FRAMES, &self.block.bytes, &self.block.surprises)
     }
 
     pub(super) fn finish(mut self, ending: &Ending) -> io::Result<W> {
         if !self.waiting.is_empty() {
             self.put_block()?;
         }
-        put_text(&mut self.out, DONE, ending)?;
-        self.out.flush()?;
-        Ok(self.out)
+        self.out.put_text(DONE, ending)?;
+        self.out.out.flush()?;
+        Ok(self.out.out)
     }
 }
 
-fn put_text(out: &mut impl Write, tag: &[u8; 4], value: &impl Serialize) -> io::Result<()> {
-    put(out, tag, ron::to_string(value).map_err(io::Error::other)?.as_bytes(), &[])
+/// Writes section after section.
+struct Sections<W> {
+    out: W,
+    deflater: Deflater,
 }
 
-fn put(out: &mut impl Write, tag: &[u8; 4], content: &[u8], stored: &[Range<usize>]) -> io::Result<()> {
-    let packed = deflated(content, stored)?;
-    let mut head = tag.to_vec();
-    head.extend((packed.len() as u64).to_le_bytes());
-    head.extend((content.len() as u64).to_le_bytes());
-    let checksum = checksum(&head, &packed);
-    head.extend(checksum.to_le_bytes());
-    out.write_all(&head)?;
-    out.write_all(&packed)
+impl<W: Write> Sections<W> {
+    fn put_text(&mut self, tag: &[u8; 4], value: &impl Serialize) -> io::Result<()> {
+        self.put(tag, ron::to_string(value).map_err(io::Error::other)?.as_bytes(), &[])
+    }
+
+    fn put(&mut self, tag: &[u8; 4], content: &[u8], stored: &[Range<usize>]) -> io::Result<()> {
+        let packed = self.deflater.deflate(content, stored)?;
+        let mut head = tag.to_vec();
+        head.extend((packed.len() as u64).to_le_bytes());
+        head.extend((content.len() as u64).to_le_bytes());
+        let checksum = checksum(&head, packed);
+        head.extend(checksum.to_le_bytes());
+        self.out.write_all(&head)?;
+        self.out.write_all(packed)
+    }
 }
 
 fn checksum(head: &[u8], packed: &[u8]) -> u32 {
@@ -289,13 +300,4 @@ impl<'a> Reader<'a> {
 /// A number, its lowest byte first.
 fn number(bytes: &[u8]) -> u64 {
     bytes.iter().rev().fold(0, |number, byte| number << 8 | u64::from(*byte))
-}
-
-/// What `--record` writes into, without a name until it is whole.
-pub(super) fn nameless() -> io::Result<fs::File> {
-    tempfile::tempfile()
-}
-
-pub(super) fn give_name(path: &Path, file: fs::File) -> Result<(), Error> {
-    written::replace(path, file)
 }

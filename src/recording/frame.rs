@@ -116,15 +116,15 @@ pub struct Totals {
 }
 
 impl Totals {
-    /// Those of a world as it is now.
+    /// Those of a world as it is now, but for the deepest overlap: that has to be searched for.
     #[must_use]
-    pub fn of(world: &World) -> Self {
+    pub fn of(world: &World, deepest: f64) -> Self {
         let momentum = world.momentum();
         Totals {
             kinetic_energy: world.kinetic_energy(),
             momentum: [momentum.x, momentum.y],
             angular_momentum: world.angular_momentum(),
-            deepest: world.deepest(),
+            deepest,
         }
     }
 

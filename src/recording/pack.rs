@@ -8,44 +8,70 @@ use std::ops::Range;
 #[derive(Default)]
 pub(super) struct Pack {
     sizes: Vec<u8>,
+    /// What is packed, and zeros for what may follow: of a number all eight bytes are written, and then fewer are kept. That is
+    /// cheaper than to copy a number of bytes that is not known.
     bytes: Vec<u8>,
+    filled: usize,
 }
 
 impl Pack {
-    /// With room for so many numbers.
-    pub(super) fn with_room(numbers: usize) -> Self {
-        Pack { sizes: Vec::with_capacity(numbers), bytes: Vec::with_capacity(8 * (numbers + 1)) }
+    /// Forgets all numbers, and keeps their room.
+    pub(super) fn clear(&mut self) {
+        self.sizes.clear();
+        self.filled = 0;
     }
 
     pub(super) fn put(&mut self, number: u64) {
-        let size = 8 - number.leading_zeros() as usize / 8;
-        self.sizes.push(size as u8);
-        // All eight and then fewer: cheaper than to copy a number of bytes that is not known.
-        let length = self.bytes.len() + size;
-        self.bytes.extend_from_slice(&number.to_le_bytes());
-        self.bytes.truncate(length);
+        self.put_all([number]);
     }
 
     /// A number by its distance from what it was expected to be, in steps of the last bit: every bit of it can be told from that.
     pub(super) fn put_near(&mut self, expected: f64, number: f64) {
-        let distance = rank(number).wrapping_sub(rank(expected)) as i64;
-        self.put(((distance << 1) ^ (distance >> 63)) as u64);
+        self.put_all([distance(expected, number)]);
     }
 
-    /// Adds the numbers of another.
-    pub(super) fn append(&mut self, other: &Pack) {
-        self.sizes.extend_from_slice(&other.sizes);
-        self.bytes.extend_from_slice(&other.bytes);
+    /// The same of several.
+    pub(super) fn put_all_near<const N: usize>(&mut self, expected: [f64; N], numbers: [f64; N]) {
+        self.put_all::<N>(std::array::from_fn(|i| distance(expected[i], numbers[i])));
     }
 
-    /// The bytes: two lengths, then the two kinds. Gives where those stand that deflate to nothing less.
-    pub(super) fn append_to(&self, block: &mut Vec<u8>) -> Range<usize> {
-        block.extend((self.sizes.len() as u64).to_le_bytes());
-        block.extend((self.bytes.len() as u64).to_le_bytes());
-        block.extend(&self.sizes);
-        block.extend(&self.bytes);
-        block.len() - self.bytes.len()..block.len()
+    #[inline]
+    fn put_all<const N: usize>(&mut self, numbers: [u64; N]) {
+        if self.bytes.len() < self.filled + 8 * N {
+            self.make_room(8 * N);
+        }
+        let sizes = numbers.map(|number| 8 - number.leading_zeros() as u8 / 8);
+        for (number, size) in numbers.into_iter().zip(sizes) {
+            self.bytes[self.filled..self.filled + 8].copy_from_slice(&number.to_le_bytes());
+            self.filled += usize::from(size);
+        }
+        self.sizes.extend_from_slice(&sizes);
     }
+
+    #[cold]
+    fn make_room(&mut self, bytes: usize) {
+        self.bytes.resize((self.filled + bytes).max(2 * self.bytes.len()).max(64), 0);
+    }
+
+    fn bytes(&self) -> &[u8] {
+        &self.bytes[..self.filled]
+    }
+}
+
+/// Adds packs to a block as one: two lengths, then the two kinds. Gives where those stand that deflate to nothing less.
+pub(super) fn append(packs: &[&Pack], block: &mut Vec<u8>) -> Range<usize> {
+    let length = |of: fn(&Pack) -> usize| packs.iter().map(|pack| of(pack) as u64).sum::<u64>().to_le_bytes();
+    block.extend(length(|pack| pack.sizes.len()));
+    block.extend(length(|pack| pack.filled));
+    packs.iter().for_each(|pack| block.extend_from_slice(&pack.sizes));
+    let start = block.len();
+    packs.iter().for_each(|pack| block.extend_from_slice(pack.bytes()));
+    start..block.len()
+}
+
+fn distance(expected: f64, number: f64) -> u64 {
+    let distance = rank(number).wrapping_sub(rank(expected)) as i64;
+    ((distance << 1) ^ (distance >> 63)) as u64
 }
 
 /// Numbers being unpacked; `None` wherever the bytes are not what [`Pack`] writes.
@@ -126,7 +152,7 @@ mod tests {
         let pairs = || numbers.into_iter().flat_map(|a| numbers.map(|b| (a, b)));
         pairs().for_each(|(expected, number)| pack.put_near(expected, number));
         let mut block = Vec::new();
-        pack.append_to(&mut block);
+        append(&[&pack], &mut block);
         let mut rest = block.as_slice();
         let mut unpack = Unpack::take_from(&mut rest).expect("a pack");
         for (expected, number) in pairs() {
@@ -141,6 +167,6 @@ mod tests {
         pack.put_near(0.1, 0.1);
         pack.put_near(0.1, 0.1 + 1e-18);
         pack.put_near(1.0, 1.0 + f64::EPSILON);
-        assert_eq!((pack.sizes, pack.bytes), (vec![0, 0, 1], vec![2]));
+        assert_eq!((pack.sizes.as_slice(), pack.bytes()), ([0, 0, 1].as_slice(), [2].as_slice()));
     }
 }

@@ -1,22 +1,23 @@
 //! Records a run while it goes on: into memory, or into a file that gets its name when all is well.
 
-use std::fs::File;
-use std::io::{self, Seek};
+use std::io;
 use std::path::Path;
-use std::sync::mpsc::{Receiver, SyncSender, channel, sync_channel};
+use std::sync::mpsc::{Receiver, Sender, SyncSender, channel, sync_channel};
 use std::thread::{self, JoinHandle};
 
+use choque_engine::detect::deepest::{Depths, Poses};
 use choque_engine::ledger::Cause;
-use choque_engine::{BodyId, Hit, World};
+use choque_engine::{Hit, World};
 use choque_scripting::{Moment, Run, Scenario};
 
 use super::Recording;
 use super::about::{About, Body, Ending};
-use super::file::{Writer, give_name, nameless};
+use super::file::Writer;
 use super::frame::{Books, Command, Frame, Push, State, Strike, Totals, Touch};
 use crate::Error;
 use crate::outcome::Judgement;
 use crate::play::{Watch, play};
+use crate::written::Nameless;
 
 /// What is recorded of a run.
 #[derive(Clone, Debug)]
@@ -60,12 +61,15 @@ pub struct Recorder<K = InMemory> {
     /// How many bodies that callbacks wrote to have been seen in this iteration, and after how many exchanges.
     commanded: usize,
     exchanges: u64,
+    /// Which bodies the iteration under way lists as overlapping.
+    is_listed: Vec<bool>,
 }
 
 /// Where frames go.
 pub trait Keep {
-    /// Takes the next frame, and gives an empty one, with the room of an earlier one if there is any to be had.
-    fn keep(&mut self, frame: Frame) -> Frame;
+    /// Takes the next frame, in which all stands but how deep bodies overlap, and the world of it. Gives an empty one, with the room of
+    /// an earlier one if there is any to be had.
+    fn keep(&mut self, world: &World, frame: Frame) -> Frame;
 }
 
 /// Frames kept in memory: 48 bytes a body, and what happened.
@@ -74,18 +78,22 @@ pub struct InMemory {
     about: About,
     bodies: Vec<Body>,
     frames: Vec<Frame>,
+    depths: Depths,
+    poses: Poses,
 }
 
 /// Frames packed and written by a thread of their own.
 #[derive(Debug)]
 pub struct IntoFile {
     frames: SyncSender<Message>,
-    /// Frames that are written, empty again.
-    spent: Receiver<Frame>,
-    /// Frames to be handed over together: a thread that sleeps costs as much to wake as many bodies to write.
-    together: Vec<Frame>,
+    /// What is written, empty again.
+    spent: Receiver<Taken>,
+    /// Room for the next.
+    poses: Poses,
+    /// What is to be handed over together: a thread that sleeps costs as much to wake as many bodies to write.
+    together: Vec<Taken>,
     most: usize,
-    writing: JoinHandle<io::Result<File>>,
+    writing: JoinHandle<io::Result<Nameless>>,
 }
 
 /// Messages that may wait to be written: a run does not get further ahead.
@@ -95,25 +103,34 @@ const WAITING: usize = 16;
 const STATES_TOGETHER: usize = 1 << 12;
 const FRAMES_TOGETHER: usize = 1 << 6;
 
+/// A frame without its deepest overlap, and where that is to be searched for.
+type Taken = (Frame, Poses);
+
 enum Message {
-    Frames(Vec<Frame>),
+    Frames(Vec<Taken>),
     Done(Ending),
 }
 
 impl Keep for InMemory {
-    fn keep(&mut self, frame: Frame) -> Frame {
+    fn keep(&mut self, world: &World, mut frame: Frame) -> Frame {
+        world.take_poses(&mut self.poses);
+        frame.totals.deepest = self.depths.deepest(&self.poses);
         self.frames.push(frame);
         Frame::default()
     }
 }
 
 impl Keep for IntoFile {
-    fn keep(&mut self, frame: Frame) -> Frame {
-        self.together.push(frame);
+    fn keep(&mut self, world: &World, frame: Frame) -> Frame {
+        let mut poses = std::mem::take(&mut self.poses);
+        world.take_poses(&mut poses);
+        self.together.push((frame, poses));
         if self.together.len() >= self.most {
             self.hand_over();
         }
-        self.spent.try_recv().unwrap_or_default()
+        let (frame, poses) = self.spent.try_recv().unwrap_or_default();
+        self.poses = poses;
+        frame
     }
 }
 
@@ -129,13 +146,21 @@ impl Recorder<InMemory> {
     /// Begins with the run as it stands, which must be its start.
     #[must_use]
     pub fn in_memory(scenario: &Scenario, run: &mut Run, settings: &Settings) -> Self {
-        Recorder::begin(scenario, run, settings, |about, bodies| InMemory { about, bodies, frames: Vec::new() })
+        let depths = Depths::of(&run.world());
+        let poses = Poses::default();
+        Recorder::begin(scenario, run, settings, |about, bodies| InMemory {
+            about,
+            bodies,
+            frames: Vec::new(),
+            depths,
+            poses,
+        })
     }
 
     /// The recording of what has been played so far.
     #[must_use]
     pub fn so_far(&self) -> Recording {
-        let InMemory { about, bodies, frames } = &self.frames;
+        let InMemory { about, bodies, frames, .. } = &self.frames;
         let ending = Ending { steps: self.last, ..Ending::default() };
         Recording { about: about.clone(), bodies: bodies.clone(), frames: frames.clone(), ending }
     }
@@ -145,35 +170,29 @@ impl Recorder<InMemory> {
     pub fn finish(mut self, world: &World, judgements: &[Judgement]) -> Recording {
         self.frame_of_the_end(world);
         let ending = ending(world, judgements);
-        let InMemory { about, bodies, frames } = self.frames;
+        let InMemory { about, bodies, frames, .. } = self.frames;
         Recording { about, bodies, frames, ending }
     }
 }
 
 impl Recorder<IntoFile> {
-    /// Begins with the run as it stands, which must be its start.
-    #[must_use]
-    pub fn into_file(scenario: &Scenario, run: &mut Run, settings: &Settings) -> Self {
-        Recorder::begin(scenario, run, settings, |about, bodies| {
+    /// Begins with the run as it stands, which must be its start. The file gets its name in the end.
+    ///
+    /// # Errors
+    /// A file that cannot be written.
+    pub fn into_file(scenario: &Scenario, run: &mut Run, settings: &Settings, path: &Path) -> Result<Self, Error> {
+        let file = Nameless::to_become(path)?;
+        let depths = Depths::of(&run.world());
+        Ok(Recorder::begin(scenario, run, settings, |about, bodies| {
             let most = (STATES_TOGETHER / bodies.len().max(1)).clamp(1, FRAMES_TOGETHER);
             let (frames, taken) = sync_channel(WAITING);
             let (back, spent) = channel();
             let writing = thread::spawn(move || {
-                let mut writer = Writer::begin(io::BufWriter::new(nameless()?), &about, &bodies)?;
-                loop {
-                    match taken.recv() {
-                        Ok(Message::Frames(frames)) => {
-                            frames.into_iter().try_for_each(|frame| writer.put(frame))?;
-                            // Nobody takes them only where the run has ended.
-                            writer.spent().for_each(|frame| drop(back.send(frame)));
-                        }
-                        Ok(Message::Done(ending)) => return Ok(writer.finish(&ending)?.into_inner()?),
-                        Err(_) => return Err(io::Error::other("the run was broken off")),
-                    }
-                }
+                let writer = Writer::begin(io::BufWriter::new(file), &about, &bodies)?;
+                write(writer, depths, &taken, &back)
             });
-            IntoFile { frames, spent, together: Vec::new(), most, writing }
-        })
+            IntoFile { frames, spent, poses: Poses::default(), together: Vec::new(), most, writing }
+        }))
     }
 
     /// Ends the recording of a run that has ended so, and gives the file its name.
@@ -186,9 +205,32 @@ impl Recorder<IntoFile> {
         let IntoFile { frames, writing, .. } = self.frames;
         let _ = frames.send(Message::Done(ending(world, judgements)));
         let written = writing.join().unwrap_or_else(|_| Err(io::Error::other("the thread that writes it panicked")));
-        let rewound = written.and_then(|mut file| file.rewind().map(|()| file));
-        let file = rewound.map_err(|source| Error::File { verb: "write", path: path.to_owned(), source })?;
-        give_name(path, file)
+        written.map_err(|source| Error::File { verb: "write", path: path.to_owned(), source })?.give_name()
+    }
+}
+
+/// Writes what is taken, and gives it back empty.
+fn write(
+    mut writer: Writer<io::BufWriter<Nameless>>,
+    mut depths: Depths,
+    taken: &Receiver<Message>,
+    back: &Sender<Taken>,
+) -> io::Result<Nameless> {
+    let mut looked_at = Vec::new();
+    loop {
+        match taken.recv() {
+            Ok(Message::Frames(frames)) => {
+                for (mut frame, poses) in frames {
+                    frame.totals.deepest = depths.deepest(&poses);
+                    looked_at.push(poses);
+                    writer.put(frame)?;
+                }
+                // Nobody takes them only where the run has ended.
+                writer.spent().for_each(|frame| drop(back.send((frame, looked_at.pop().unwrap_or_default()))));
+            }
+            Ok(Message::Done(ending)) => return Ok(writer.finish(&ending)?.into_inner()?),
+            Err(_) => return Err(io::Error::other("the run was broken off")),
+        }
     }
 }
 
@@ -209,8 +251,9 @@ impl<K: Keep> Recorder<K> {
         let bodies = Body::all(scenario.scene(), &world);
         let frames = keep(about, bodies);
         let steps = world.plan().steps;
+        let next = Frame::default();
         let mut recorder =
-            Recorder { every, steps, frames, last: 0, next: Frame::default(), commanded: 0, exchanges: 0 };
+            Recorder { every, steps, frames, last: 0, next, commanded: 0, exchanges: 0, is_listed: Vec::new() };
         recorder.frame(&world);
         recorder
     }
@@ -228,7 +271,7 @@ impl<K: Keep> Recorder<K> {
         frame.iteration = world.iteration();
         frame.time = world.time();
         frame.digest = world.digest();
-        frame.totals = Totals::of(world);
+        frame.totals = Totals::of(world, 0.0);
         frame.states.extend(world.ids().map(|id| State::of(world, id)));
         frame.touches.extend(world.loads().iter().map(|load| Touch::of(world, load)));
         frame.books = world.ledger().map(|ledger| Books {
@@ -236,7 +279,7 @@ impl<K: Keep> Recorder<K> {
             relocated: ledger.relocated(),
             relocations: ledger.relocations(),
         });
-        self.next = self.frames.keep(frame);
+        self.next = self.frames.keep(world, frame);
     }
 
     /// The bodies that callbacks have written to since this was last asked.
@@ -264,10 +307,14 @@ impl<K: Keep> Recorder<K> {
             return;
         }
         self.next.listed.extend(world.listed().map(|(a, b)| [a, b].map(|id| id.index() as u32)));
-        let mut ids: Vec<BodyId> = world.listed().flat_map(|(a, b)| [a, b]).collect();
-        ids.sort_unstable();
-        ids.dedup();
-        self.next.advanced.extend(ids.into_iter().map(|id| (id.index() as u32, State::of(world, id))));
+        self.is_listed.clear();
+        self.is_listed.resize(world.len(), false);
+        for (a, b) in world.listed() {
+            self.is_listed[a.index()] = true;
+            self.is_listed[b.index()] = true;
+        }
+        let listed = world.ids().filter(|id| self.is_listed[id.index()]);
+        self.next.advanced.extend(listed.map(|id| (id.index() as u32, State::of(world, id))));
     }
 
     fn is_due(&self, iteration: u64) -> bool {

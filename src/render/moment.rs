@@ -12,7 +12,7 @@ use crate::plot::lettering::{Anchor, Pen, width};
 use crate::plot::palette::{Colour, FAINT, INK, Look, PAPER, tint};
 use crate::recording::{Body, Frame, Recording, State};
 
-const TITLE: Pen = Pen { size: 11.5, weight: 1.9, colour: INK };
+const TITLE: Pen = Pen { size: 11.5, weight: 1.5, colour: INK };
 const SMALL: Pen = Pen { size: 8.4, weight: 1.05, colour: FAINT };
 const NAME: Pen = Pen { size: 7.4, weight: 1.0, colour: INK };
 /// What bodies that never yield are drawn in.
@@ -34,6 +34,8 @@ const DOT: f64 = 1.6;
 const THINNEST: f64 = 0.8;
 /// How far paper shines around a name that stands over lines [px].
 const HALO: f64 = 2.6;
+/// Corners that are by so much less far right count for little where a name is to stand [px].
+const BLUNT: f64 = 3.0;
 /// Places that each body came by.
 const GHOSTS: usize = 9;
 /// Points of a trail at most.
@@ -196,10 +198,11 @@ impl<'a> Moment<'a> {
             room.take(Box2::around(at, 0.5 * width(name, NAME.size)));
         }
         for (body, state, name) in &beside {
-            let at = view.place([state.x, state.z]);
-            let corners = body.corners(state).into_iter().flatten().map(|corner| view.place(corner)[0]);
-            let right = corners.fold(at[0], f64::max).min(view.from[0] + view.size[0]);
-            if let Some(start) = room.find([right - 3.0, at[1]], name, NAME.size) {
+            let centre = view.place([state.x, state.z]);
+            let end = right_end(body, state, view).unwrap_or(centre);
+            // Who reaches out of the picture is named at its edge.
+            let [right, middle] = if end[0] < high[0] { end } else { [high[0], centre[1]] };
+            if let Some(start) = room.find([right - 3.0, middle], name, NAME.size) {
                 drawing.text(start, Anchor::Start, name, Pen { weight: NAME.weight + HALO, colour: PAPER, ..NAME });
                 drawing.text(start, Anchor::Start, name, NAME);
             }
@@ -233,6 +236,16 @@ impl<'a> Moment<'a> {
         };
         drawing.text([right, bottom + 20.0], Anchor::End, &counts, SMALL);
     }
+}
+
+/// Where a body ends on its right: in the middle of a side that is upright, at a corner that sticks out, and in between as it turns.
+/// `None` where it has no rectangle.
+fn right_end(body: &Body, state: &State, view: &View) -> Option<At> {
+    let corners: Vec<At> = body.corners(state).into_iter().flatten().map(|corner| view.place(corner)).collect();
+    let right = corners.iter().map(|corner| corner[0]).reduce(f64::max)?;
+    let weights = corners.iter().map(|corner| libm::exp((corner[0] - right) / BLUNT));
+    let (sum, all) = corners.iter().zip(weights).fold((0.0, 0.0), |(sum, all), (at, w)| (sum + w * at[1], all + w));
+    Some([right, sum / all])
 }
 
 /// A name as long as there is room for.

@@ -21,3 +21,4 @@ mod studio;
 mod support;
 mod sweep;
 mod tidy;
+mod unwritable;

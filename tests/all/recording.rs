@@ -134,6 +134,21 @@ fn a_run_writes_its_recording_whole_or_not_at_all() {
     assert_eq!(fs::read_to_string(folder.path().join("lively.rhai")).expect("the script"), LIVELY);
 }
 
+/// Also how deep bodies overlap, which is searched for by the thread that writes; over several blocks.
+#[test]
+fn a_file_holds_what_is_kept_in_memory() {
+    let crossed = "mobile(\"bar\").rect(4, 0.4).at(0, 50).spin(0.1); mobile(\"post\").rect(0.4, 4).at(0.1, 50);";
+    let long = format!("{}{crossed}", LIVELY.replace("steps(96)", "steps(300)"));
+    let folder = folder(&[("lively.rhai", &long)]);
+    let words = ["run", "lively.rhai", "--record", "run.choque"];
+    let run = choque().current_dir(folder.path()).args(words).output().expect("it runs");
+    assert_eq!(run.status.code(), Some(0), "{}", stderr(&run));
+    let written = Recording::read(&folder.path().join("run.choque")).expect("a recording");
+    let kept = recorded(&long, &with_ledger());
+    assert_eq!(written.frames, kept.frames);
+    assert!(kept.frames.iter().filter(|frame| frame.totals.deepest > 0.0).count() > 10);
+}
+
 #[test]
 fn a_recording_of_the_first_version_is_read_for_ever() {
     let old = Recording::read(Path::new("tests/recordings/lively.0.1.0.choque")).expect("an old recording");

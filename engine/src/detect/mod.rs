@@ -1,6 +1,7 @@
 //! Detection (§2.3): whether and where two bodies overlap.
 
 pub mod complete;
+pub mod deepest;
 pub mod manifold;
 pub(crate) mod near;
 pub mod overlap;

@@ -1,5 +1,6 @@
 //! A thousand random scenes: the sweep in strips finds what testing every pair finds, to the bit.
 
+use choque_engine::detect::deepest::{Depths, Poses};
 use choque_engine::scene::{
     Body, BroadPhaseChoice, Detection, ExchangeRule, Kind, Part, Patrol, Scene, Settings, Swing,
 };
@@ -121,6 +122,23 @@ fn strips_find_what_all_pairs_find() {
         collisions += every.collisions();
     }
     assert!(collisions > 50_000, "scenes in which little happens show little: {collisions} collisions");
+}
+
+#[test]
+fn a_search_that_is_kept_finds_the_deepest_overlap_that_a_fresh_one_finds() {
+    let mut deep = 0;
+    for seed in 0..200 {
+        let mut world = world(&random_scene(seed), BroadPhaseChoice::Strips);
+        let (mut kept, mut poses) = (Depths::of(&world), Poses::default());
+        for step in 0..30 {
+            world.step();
+            world.take_poses(&mut poses);
+            let fresh = world.deepest();
+            assert_eq!(kept.deepest(&poses).to_bits(), fresh.to_bits(), "scene {seed}, step {step}");
+            deep += u32::from(fresh > 0.0);
+        }
+    }
+    assert!(deep > 1000, "{deep}");
 }
 
 #[test]
