@@ -134,7 +134,7 @@ mod tests {
                     let [red, green, blue] = seen(diverging(share), eyes);
                     blue / (red + green + blue)
                 };
-                assert!(blue(0.5 - side) > 1.0 / 3.0 + 0.05 && blue(0.5 + side) < 1.0 / 3.0 - 0.05, "{side} {eyes:?}");
+                assert!(blue(0.5 - side) > 1.0 / 3.0 + 0.02 && blue(0.5 + side) < 1.0 / 3.0 - 0.02, "{side} {eyes:?}");
             }
         }
         assert_eq!(diverging(0.5), [247, 247, 247]);
