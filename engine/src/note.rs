@@ -53,15 +53,14 @@ pub fn review(scene: &Scene, world: &World) -> Vec<Note> {
 
 /// What only the contacts of stepped impulses read.
 fn without_effect(settings: &Settings) -> Vec<Note> {
-    if settings.motion == MotionRule::Stepped && settings.exchange == ExchangeRule::Impulse {
+    if settings.solves_contacts() {
         return Vec::new();
     }
+    let is_unseen = settings.motion == MotionRule::Stepped && settings.exchange == ExchangeRule::Impulse;
+    let needed = if is_unseen { "detection(\"complete\")" } else { "exchange(\"impulse\") with motion(\"stepped\")" };
     let substeps = settings.substeps.map(|count| format!("substeps({count})"));
     let sleeping = settings.sleeping.then(|| "sleeping(true)".to_owned());
-    let note = |word: String| Note {
-        body: None,
-        text: format!("{word} does nothing here: it is for exchange(\"impulse\") with motion(\"stepped\")"),
-    };
+    let note = |word: String| Note { body: None, text: format!("{word} does nothing here: it is for {needed}") };
     substeps.into_iter().chain(sleeping).map(note).collect()
 }
 

@@ -28,7 +28,7 @@ pub struct Plan {
     pub motion: MotionPlan,
     /// How motion is handed over.
     pub exchange: ExchangePlan,
-    /// How contacts are solved, in stepped motion with the impulse exchange.
+    /// How contacts are solved, in stepped motion with the impulse exchange and complete detection.
     pub contact: Option<ContactPlan>,
     /// How bodies fly between collisions.
     pub flight: FlightPlan,
@@ -286,6 +286,7 @@ impl Plan {
         };
         let nothing = self.broad_phase == BroadPhasePlan::Nothing;
         let document = !nothing && self.exchange != ExchangePlan::Impulse;
+        let pair_by_pair = !nothing && self.motion == MotionPlan::Stepped && self.contact.is_none();
         let contacts_lack = |of: fn(&ContactPlan) -> bool| self.contact.as_ref().is_some_and(|contact| !of(contact));
         [
             (!gravity, "gravity"),
@@ -297,7 +298,7 @@ impl Plan {
             (document && census.mobile < 2, "exchange §2.5.1"),
             (document && census.fixed_with_physics == 0, "exchange §2.5.2"),
             (document && census.fixed == 0, "exchange §2.5.3"),
-            (document, "lasting contact"),
+            (document || pair_by_pair, "lasting contact"),
             (contacts_lack(|contact| contact.restitution), "restitution"),
             (contacts_lack(|contact| contact.friction), "friction"),
             (contacts_lack(|contact| contact.sleeping), "sleeping"),

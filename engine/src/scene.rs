@@ -109,6 +109,16 @@ impl Settings {
             ExchangeRule::Impulse => Detection::Complete,
         })
     }
+
+    /// Whether contacts last and are solved together, in sub-steps: where bodies move in steps, hand impulses over, and every
+    /// overlap is seen. An iteration then advances, finds and solves in one. With vertices alone impulses act pair by pair, when
+    /// an overlap is found.
+    #[must_use]
+    pub fn solves_contacts(&self) -> bool {
+        self.motion == MotionRule::Stepped
+            && self.exchange == ExchangeRule::Impulse
+            && self.detection_that_holds() == Detection::Complete
+    }
 }
 
 /// Makes an enum of a setting's choices with the words that scripts, flags and output use for them.

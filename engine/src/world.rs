@@ -55,7 +55,7 @@ pub struct World {
     pub(crate) work: Work,
     /// What continuous motion keeps; a stepped world has none.
     pub(crate) continuous: Option<Box<Continuous>>,
-    /// What the contact solver keeps; only stepped motion with impulses has one.
+    /// What the contact solver keeps, where the plan has one.
     pub(crate) contacts: Option<Box<Contacts>>,
     /// The books, once they are asked for.
     pub(crate) ledger: Option<Box<Ledger>>,
@@ -85,10 +85,7 @@ impl World {
                 Some(Box::new(Continuous::new(middling, plan.exchange == ExchangePlan::Impulse, bodies.len())))
             }
         };
-        let contacts = plan
-            .contact
-            .filter(|_| plan.detection == Detection::Complete)
-            .map(|contact| Box::new(Contacts::new(contact, &bodies)));
+        let contacts = plan.contact.map(|contact| Box::new(Contacts::new(contact, &bodies)));
         Ok(World {
             continuous,
             contacts,

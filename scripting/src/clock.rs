@@ -2,7 +2,7 @@
 
 #![allow(clippy::disallowed_methods, clippy::disallowed_types)] // no result depends on it, only whether there is one
 
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 use std::time::{Duration, Instant};
 
@@ -16,7 +16,7 @@ const BETWEEN_LOOKS: u64 = 256;
 pub(crate) struct Clock {
     limit: Duration,
     deadline: Rc<Cell<Option<Instant>>>,
-    stop: Stop,
+    stop: Rc<RefCell<Stop>>,
 }
 
 /// Why a script was stopped.
@@ -30,7 +30,12 @@ pub(crate) enum Stopped {
 
 impl Clock {
     pub(crate) fn new(limit: Duration, stop: Stop) -> Self {
-        Clock { limit, deadline: Rc::default(), stop }
+        Clock { limit, deadline: Rc::default(), stop: Rc::new(RefCell::new(stop)) }
+    }
+
+    /// From now on it is this one that stops the script.
+    pub(crate) fn heed(&self, stop: &Stop) {
+        self.stop.replace(stop.clone());
     }
 
     /// From now on the script has its full time again.
@@ -43,7 +48,7 @@ impl Clock {
         if !operations.is_multiple_of(BETWEEN_LOOKS) {
             return None;
         }
-        if self.stop.is_asked() {
+        if self.stop.borrow().is_asked() {
             return Some(Stopped::Asked);
         }
         let is_over = self.deadline.get().is_some_and(|deadline| Instant::now() >= deadline);

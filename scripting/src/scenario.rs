@@ -12,7 +12,7 @@ use crate::control::Control;
 use crate::error::{Complaint, Diagnostic};
 use crate::fit::{Variable, Varied, Wanted};
 use crate::library::read_text;
-use crate::options::{Options, Overrides};
+use crate::options::{Options, Overrides, Stop};
 use crate::plain;
 use crate::run::Run;
 use crate::script::{Program, Script};
@@ -38,7 +38,23 @@ enum Source {
     Script { program: Rc<Program>, ready: Box<RefCell<Option<Script>>> },
 }
 
+/// What a scenario's file name ends in: of a script, and of a plain scene.
+const SCRIPT: &str = "rhai";
+const PLAIN: &str = "ron";
+
 impl Scenario {
+    /// Whether a file's name is a script's.
+    #[must_use]
+    pub fn is_script(file: &Path) -> bool {
+        file.extension().is_some_and(|extension| extension == SCRIPT)
+    }
+
+    /// Whether a file's name is a scenario's: a script's or a plain scene's.
+    #[must_use]
+    pub fn is_named(file: &Path) -> bool {
+        Scenario::is_script(file) || file.extension().is_some_and(|extension| extension == PLAIN)
+    }
+
     /// Reads a `.rhai` script and runs its main part, or reads a `.ron` scene.
     ///
     /// # Errors
@@ -46,14 +62,12 @@ impl Scenario {
     pub fn load(file: &Path, options: &Options) -> Result<Scenario, Diagnostic> {
         check_overrides(&options.overrides)?;
         check_library(options)?;
-        let is_script = match file.extension().and_then(|extension| extension.to_str()) {
-            Some("rhai") => true,
-            Some("ron") => false,
-            _ => return Err(unknown_kind(file)),
-        };
+        if !Scenario::is_named(file) {
+            return Err(unknown_kind(file));
+        }
         options.reads.tell(file);
         let text = read_text(file, file)?;
-        if is_script {
+        if Scenario::is_script(file) {
             Scenario::of_program(file, Rc::new(Program::compile(file, &text, options)?), options.clone())
         } else {
             let as_written = Rc::new(plain::read(file, &text)?);
@@ -74,6 +88,14 @@ impl Scenario {
                 Scenario::of_scene(&self.file, text.clone(), as_written.clone(), options)
             }
             Source::Script { program, .. } => Scenario::of_program(&self.file, program.clone(), options),
+        }
+    }
+
+    /// From now on it is this one that stops the scenario, and all that [`Scenario::with`] makes of it: a stop that was asked for
+    /// once stays so, and whoever runs the scenario again needs another.
+    pub fn heed(&self, stop: &Stop) {
+        if let Source::Script { program, .. } = &self.source {
+            program.heed(stop);
         }
     }
 

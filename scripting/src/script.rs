@@ -18,7 +18,7 @@ use crate::expectation::Pending;
 use crate::fit::{Aim, Variable, Varied};
 use crate::library::{Found, Library};
 use crate::modules::Resolver;
-use crate::options::{Options, Overrides};
+use crate::options::{Options, Overrides, Stop};
 use crate::params::Params;
 use crate::sandbox;
 use crate::session::{Phase, RhaiResultOf, Running, Session, SessionTag, Site};
@@ -100,6 +100,11 @@ impl Program {
         surroundings.source = self.ast.source().map(Into::into);
         surroundings.lib.push(module.into());
         Ok(surroundings)
+    }
+
+    /// From now on it is this one that stops the script.
+    pub(crate) fn heed(&self, stop: &Stop) {
+        self.clock.heed(stop);
     }
 
     /// The text of the script.

@@ -29,21 +29,27 @@ const SAME_TIME: f64 = 1e-9;
 /// Fewer moments at the same time say nothing of growth.
 const FEWEST: usize = 3;
 
-/// The distance at every moment that both have, from an iteration of A on.
-#[must_use]
-pub fn growth(a: &Recording, b: &Recording, from: u64) -> Vec<Apart> {
-    let moments = moments(a, b).into_iter().map(|[i, j]| (&a.frames[i], &b.frames[j]));
-    let moments = moments.filter(|(frame, _)| frame.iteration >= from);
-    moments.map(|(one, other)| apart(&a.bodies, one, other)).collect()
+/// How two runs went apart.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Growth {
+    /// Every moment that both have.
+    pub moments: Vec<Apart>,
+    /// Whether frames of the same time were compared, as runs of several time steps allow; else those of the same iteration.
+    pub is_by_time: bool,
 }
 
-/// Frames that are compared: of the same time, where runs of several time steps have such; else of the same iteration.
-fn moments(a: &Recording, b: &Recording) -> Vec<[usize; 2]> {
-    by_time(a, b).unwrap_or_else(|| common(a, b))
+/// The distance at every moment that both have, from an iteration of A on.
+#[must_use]
+pub fn growth(a: &Recording, b: &Recording, from: u64) -> Growth {
+    let by_time = by_time(a, b);
+    let is_by_time = by_time.is_some();
+    let frames = by_time.unwrap_or_else(|| common(a, b)).into_iter().map(|[i, j]| (&a.frames[i], &b.frames[j]));
+    let frames = frames.filter(|(frame, _)| frame.iteration >= from);
+    Growth { moments: frames.map(|(one, other)| apart(&a.bodies, one, other)).collect(), is_by_time }
 }
 
 /// Of runs whose time steps are not the same, frames of the same time, if there are enough.
-pub(super) fn by_time(a: &Recording, b: &Recording) -> Option<Vec<[usize; 2]>> {
+fn by_time(a: &Recording, b: &Recording) -> Option<Vec<[usize; 2]>> {
     if a.about.time_step == b.about.time_step {
         return None;
     }

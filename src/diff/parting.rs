@@ -8,7 +8,7 @@ use std::fmt;
 
 use super::aligned::renamed;
 use super::contacts::Iteration;
-use super::premises::{Otherwise, lasts, lists};
+use super::premises::{Otherwise, lists};
 use crate::recording::{Command, Frame, Recording, State, Strike};
 
 /// Where two runs part.
@@ -228,7 +228,7 @@ pub(super) fn first_differing(a: &[State], b: &[State]) -> Option<u32> {
 fn stage_of(iteration: &Iteration<'_>) -> Option<Difference> {
     let Iteration { runs: [a, b], now, otherwise, .. } = *iteration;
     commands(now, 0).or_else(|| pushes(now)).or_else(|| {
-        if lasts(a) || lasts(b) {
+        if a.about.settings.solves_contacts() || b.about.settings.solves_contacts() {
             return iteration.stage();
         }
         if lists(a) && lists(b) {

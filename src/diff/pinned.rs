@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::told::{Found, comparison};
 use crate::Error;
-use crate::harness::{MeetingRow, Snapshot, pinned, rounded};
+use crate::harness::{self, MeetingRow, Snapshot, pinned, rounded};
 use crate::outcome::hexadecimal;
 use crate::output::table::{Side, table};
 use crate::recording::{Frame, Recording, Strike};
@@ -13,19 +13,15 @@ use crate::terminal::{BAD, GOOD, HEADING, styled};
 /// Bodies of which it is told how they ended.
 const NAMED: usize = 8;
 
-/// Where a script below `scenarios` is pinned: at the same path below `snapshots` beside it.
+/// The snapshot of a script below `scenarios`.
 ///
 /// # Errors
 /// A script that is in no such folder.
 pub fn snapshot_of(script: &Path) -> Result<PathBuf, Error> {
-    let full = script.canonicalize().unwrap_or_else(|_| script.to_owned());
-    let scenarios = full.ancestors().find(|folder| folder.file_name().is_some_and(|name| name == "scenarios"));
-    let below = scenarios.and_then(|folder| Some((folder.parent()?, full.strip_prefix(folder).ok()?)));
-    let (package, below) = below.ok_or_else(|| Error::Call {
+    harness::snapshot_of(script).ok_or_else(|| Error::Call {
         message: format!("{} is in no folder named scenarios, so its snapshot cannot be found", script.display()),
         hint: "name the snapshot: choque diff FILE.rhai FILE.snap".to_owned(),
-    })?;
-    Ok(package.join("snapshots").join(below).with_extension("snap"))
+    })
 }
 
 /// Reads a snapshot.

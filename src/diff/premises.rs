@@ -1,6 +1,6 @@
 //! What was said or modelled otherwise before anything moved.
 
-use choque_engine::scene::{Detection, ExchangeRule, MotionRule, Settings};
+use choque_engine::scene::{MotionRule, Settings};
 
 use crate::recording::{Body, Recording};
 
@@ -28,7 +28,8 @@ impl Otherwise {
         };
         let search = |s: &Settings| (s.exchange, s.detection_that_holds(), s.motion, s.plane);
         let law = |s: &Settings| (s.exchange, s.mu_l, s.mu_a, s.restitution, s.friction, s.substeps, s.sleeping);
-        let of_body = |body: &Body| (body.mass, body.inertia, body.restitution, body.friction);
+        let surfaces = told_surfaces([a, b]);
+        let of_body = |body: &Body| (body.mass, body.inertia, surfaces(body));
         let bodies = || a.bodies.iter().zip(&b.bodies);
         Otherwise {
             flies: flight(a) != flight(b),
@@ -38,17 +39,19 @@ impl Otherwise {
     }
 }
 
-/// Whether contacts last in this run and are solved together: an iteration advances, finds and solves in one.
-pub(super) fn lasts(recording: &Recording) -> bool {
-    let settings = &recording.about.settings;
-    settings.exchange == ExchangeRule::Impulse
-        && settings.motion == MotionRule::Stepped
-        && settings.detection_that_holds() == Detection::Complete
+/// What is told of a body's own restitution and friction: nothing where one of the two runs is of the first recordings, which do not
+/// tell of them.
+fn told_surfaces(runs: [&Recording; 2]) -> impl Fn(&Body) -> [Option<f64>; 2] {
+    let own = |body: &Body| [body.restitution, body.friction];
+    let tells = |run: &Recording| run.about.surfaces || run.bodies.iter().any(|body| own(body) != [None; 2]);
+    let both_tell = runs.into_iter().all(tells);
+    move |body| if both_tell { own(body) } else { [None; 2] }
 }
 
 /// Whether an iteration's overlaps are listed before any of them is treated.
 pub(super) fn lists(recording: &Recording) -> bool {
-    recording.about.settings.motion == MotionRule::Stepped && !lasts(recording)
+    let settings = &recording.about.settings;
+    settings.motion == MotionRule::Stepped && !settings.solves_contacts()
 }
 
 /// Lines that name what differs: version, build, sources, what was set, the plan.
@@ -74,13 +77,15 @@ pub(super) fn premises(a: &Recording, b: &Recording) -> Vec<String> {
         }
     }
     let bodies = a.bodies.iter().filter_map(|one| Some((one, b.bodies.iter().find(|other| other.name == one.name)?)));
+    let surfaces = told_surfaces([a, b]);
     for (one, other) in bodies.filter(|(one, other)| one != other).take(MOST_BODIES) {
+        let [own_a, own_b] = [surfaces(one), surfaces(other)];
         let own = |number: Option<f64>| number.map_or_else(|| "the scene's".to_owned(), |number| number.to_string());
         let rows = [
             ("mass [kg]", one.mass.to_string(), other.mass.to_string()),
             ("inertia [kg·m²]", one.inertia.to_string(), other.inertia.to_string()),
-            ("restitution", own(one.restitution), own(other.restitution)),
-            ("friction", own(one.friction), own(other.friction)),
+            ("restitution", own(own_a[0]), own(own_b[0])),
+            ("friction", own(own_a[1]), own(own_b[1])),
         ];
         for (what, a, b) in rows {
             note(&mut lines, &format!("{}, {what}", one.name), &a, &b);

@@ -34,7 +34,8 @@ impl Side {
                     .to_owned(),
             })?;
         }
-        let said: String = own.iter().map(|(name, value)| format!(" {name}={value}")).collect();
+        let given = both.set.iter().map(|(name, value)| format!(" {name}={value}"));
+        let said: String = given.chain(own.iter().map(|(name, value)| format!(" {name}={value}"))).collect();
         let is_given = !options.set.is_empty() || options.overrides != choque_scripting::Overrides::default();
         Ok(Side { name: format!("{}{said}", file.display()), file: file.to_owned(), options, is_given })
     }

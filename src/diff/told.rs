@@ -1,7 +1,7 @@
 //! A comparison in words and tables.
 
 use super::aligned::aligned;
-use super::growth::{Apart, by_time, growth, told};
+use super::growth::{Apart, growth, told};
 use super::parting::{Parting, Row, Stage, common, parting};
 use super::premises::premises;
 use crate::output::numbers::{counted, rough, short};
@@ -27,7 +27,8 @@ pub fn comparison(names: [&str; 2], [a, b]: [&Recording; 2]) -> Found {
     for (side, name) in ["A", "B"].into_iter().zip(names) {
         text += &format!("{}  {name}\n", styled(HEADING, side));
     }
-    for line in premises(a, b) {
+    let premises = premises(a, b);
+    for line in &premises {
         text += &format!("   {line}\n");
     }
     text += "\n";
@@ -41,6 +42,12 @@ pub fn comparison(names: [&str; 2], [a, b]: [&Recording; 2]) -> Found {
         return Found { same, iteration: None, text };
     };
     text += &in_words(&parting, a);
+    if premises.is_empty() {
+        text += &format!(
+            "all that is told of how they were made is alike, both are of choque {}: the programs differ\n\n",
+            a.about.choque
+        );
+    }
     if parting.stage != Stage::Scene || parting.body.is_some() {
         text += &growth_table(&parting, a, b);
     }
@@ -123,11 +130,15 @@ const LEAST_SPAN: f64 = core::f64::consts::LN_10;
 
 fn growth_table(parting: &Parting, a: &Recording, b: &Recording) -> String {
     let starts = parting.stage == Stage::Scene;
-    let told = told(&growth(a, b, parting.iteration + u64::from(!starts)));
+    let growth = growth(a, b, parting.iteration + u64::from(!starts));
+    let told = told(&growth.moments);
     let sizes = || told.iter().map(|apart| apart.distance).filter(|distance| *distance > 0.0);
     let (least, most) = (sizes().fold(f64::INFINITY, f64::min), sizes().fold(0.0, f64::max));
     if told.iter().all(|apart| apart.bodies == 0) {
-        return String::new();
+        return match growth.is_by_time {
+            true => "at the times that both have, no body differs\n".to_owned(),
+            false => String::new(),
+        };
     }
     let bar = |distance: f64| {
         let span = libm::log(most / least).max(LEAST_SPAN);
@@ -156,7 +167,7 @@ fn growth_table(parting: &Parting, a: &Recording, b: &Recording) -> String {
         ]
     };
     let rows: Vec<Vec<String>> = told.iter().map(row).collect();
-    let when = if by_time(a, b).is_some() { ", at the same times" } else { "" };
+    let when = if growth.is_by_time { ", at the same times" } else { "" };
     let caption = format!(
         "how it grew: how far a corner of a body is at most from where it is in the other, and how many bodies differ{when}"
     );

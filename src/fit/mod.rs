@@ -169,7 +169,7 @@ fn pose(arguments: &FitArguments, scenario: &Scenario) -> Result<Problem, Error>
 /// The text of the script that values are to be written into.
 fn script(arguments: &FitArguments) -> Result<String, Error> {
     let file = &arguments.file;
-    if file.extension().is_none_or(|extension| extension != "rhai") {
+    if !Scenario::is_script(file) {
         return Err(Error::Call {
             message: format!("{} is no script", file.display()),
             hint: "--write puts values into .rhai scripts".to_owned(),

@@ -2,7 +2,7 @@
 
 use std::fs;
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 use crate::Error;
 
@@ -26,6 +26,20 @@ impl Case {
     pub fn name(&self) -> String {
         self.path.join("::")
     }
+}
+
+/// Where a script is pinned: beside the nearest folder named `scenarios` that it is in, at the same path below `snapshots`; a relative
+/// path where the script's own tells. `None` of a script that is in no such folder.
+#[must_use]
+pub fn snapshot_of(script: &Path) -> Option<PathBuf> {
+    let beside = |script: &Path| {
+        let is_named = |folder: &&Path| folder.file_name().is_some_and(|name| name == "scenarios");
+        let scenarios = script.ancestors().skip(1).find(is_named)?;
+        let below = script.strip_prefix(scenarios).ok()?;
+        let is_plain = below.components().all(|part| matches!(part, Component::Normal(_)));
+        is_plain.then(|| scenarios.with_file_name("snapshots").join(below).with_extension("snap"))
+    };
+    beside(script).or_else(|| beside(&script.canonicalize().ok()?))
 }
 
 /// The scenarios of a package, in the order of their paths.

@@ -34,7 +34,7 @@ use libtest_mimic::{Arguments, Failed, Trial};
 
 pub use crate::harness_main as main;
 pub use difference::in_words;
-pub use discover::{Case, cases, unreferenced};
+pub use discover::{Case, cases, snapshot_of, unreferenced};
 pub use pin::pinned;
 pub use record::record;
 pub(crate) use snapshot::rounded;

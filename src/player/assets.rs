@@ -20,7 +20,7 @@ const SCRIPTS: [&str; 15] = [
     include_str!("controls.js"),
     include_str!("keys.js"),
     include_str!("page.js"),
-    "globalThis.choque = { Player, Film, unpack, fromBase64, lit, listing, themeSwitch, startPage, KEYS_IN_WORDS };\n",
+    "globalThis.choque = { Player, Film, read, unpack, fromBase64, lit, listing, themeSwitch, startPage, KEYS_IN_WORDS };\n",
 ];
 
 /// The player as one script, for any page: it defines `choque`, with `Player` and `unpack`, and does nothing else.

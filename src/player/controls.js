@@ -100,9 +100,11 @@ class Controls {
     const { player } = this;
     const { film, clock } = player;
     this.scrubber.max = clock.frames - 1;
-    this.body.replaceChildren(el("option", { value: "", text: "no body chosen" }),
-      ...film.bodies.map(({ name }, i) => el("option", { value: i, text: name })));
-    this.chosen = undefined; // the new list shows nobody
+    if (isOther(this.body, film.bodies.map(({ name }) => name))) {
+      this.body.replaceChildren(el("option", { value: "", text: "no body chosen" }),
+        ...film.bodies.map(({ name }, i) => el("option", { value: i, text: name })));
+      this.chosen = undefined; // the new list shows nobody
+    }
     this.notice.textContent = [
       ...film.head.notes,
       `Places are told to ${measure(film.head.quantum.place, "m")}, velocities to ${measure(film.head.quantum.velocity, "m/s")}.`,
@@ -117,6 +119,7 @@ class Controls {
     const entries = [...kinds.map((kind) => [kind, KINDS[kind]]), ["contact", "exchange: point, normal, face"], ["velocity", "velocity"],
       ...(film.head.touches ? [["touch", "contact that lasts"]] : []),
       ...laid.map(({ kind, label }) => [kind === "ghost" ? "ghost" : "other", label])];
+    if (!isOther(this.legend, [paletteOf(this.legend).stage, entries])) return;
     const pictures = entries.map(([kind]) => el("canvas", { class: "swatch", width: 44, height: 28, "aria-hidden": "true" }));
     this.legend.replaceChildren(...entries.map(([, text], k) => el("li", {}, pictures[k], el("span", { text }))));
     entries.forEach(([kind], k) => drawKey(pictures[k], kind));
@@ -141,13 +144,12 @@ class Controls {
       this.plots.append(...this.curves.map(({ root }) => root), this.ledger.root);
     }
     this.laid = other ? [other] : [];
-    panels.forEach((panel, k) => this.curves[k].show(panel, of((of) => panelsOf(of)[k]), film, span));
     this.ledger.root.hidden = !film.head.causes.length;
+    for (const plot of this.#plotsShown) plot.labelled = plot === this.#plotsShown.at(-1);
+    panels.forEach((panel, k) => this.curves[k].show(panel, of((of) => panelsOf(of)[k]), film, span));
     if (!this.ledger.root.hidden) {
       this.ledger.show(ledgerPanel(film, player.quantity), of((of) => ledgerPanel(of, player.quantity)), film, span);
     }
-    for (const plot of this.#plotsShown) plot.labelled = plot === this.#plotsShown.at(-1);
-    this.#plotsShown.at(-1).draw();
   }
 
   get #plotsShown() {

@@ -24,6 +24,16 @@ function mark(element, name, value) {
   if (element.getAttribute(name) !== String(value)) element.setAttribute(name, value);
 }
 
+const made = new WeakMap();
+
+/** Whether an element is made of something else than when this was asked last. */
+function isOther(element, of) {
+  const told = JSON.stringify(of);
+  const is = made.get(element) !== told;
+  made.set(element, told);
+  return is;
+}
+
 const clamp = (value, low, high) => Math.min(Math.max(value, low), high);
 
 const PREFIXES = [[1e12, "T"], [1e9, "G"], [1e6, "M"], [1e3, "k"], [1, ""], [1e-3, "m"], [1e-6, "µ"], [1e-9, "n"]];

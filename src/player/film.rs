@@ -1,4 +1,4 @@
-//! A recording as the player is handed it: a head of JSON, numbers as bytes, all of it deflated.
+//! A recording as the player is handed it: a head of JSON, numbers as bytes, all of it deflated in a page.
 //!
 //! `unpack.js` reads what is written here; the two change together, and then the format's number with them.
 
@@ -21,8 +21,11 @@ use crate::recording::{Body, Frame, Recording, State};
 /// What `unpack.js` checks.
 const FORMAT: u32 = 1;
 
-/// The most that a film may take in a page, in base64: below 10 MB with the page around it.
-const MOST_BYTES: usize = 9_600_000;
+/// The most that a film may take in a page: 9.6 MB in base64, below 10 MB with the page around it.
+const MOST_DEFLATED: usize = 7_200_000;
+
+/// The most that is handed over as it is: a browser makes several times as much of it.
+const MOST_PLAIN: usize = 64_000_000;
 
 /// How many times coarser numbers are told before frames are left out.
 const COARSEST: f64 = 16.0;
@@ -66,13 +69,33 @@ struct Actor<'a> {
 /// # Errors
 /// A body that is at no finite place.
 pub fn film(recording: &Recording, from: u64) -> Result<Vec<u8>, Error> {
+    fitted(recording, from, MOST_DEFLATED, deflated)
+}
+
+/// All of a recording, not deflated: what `choque.read` takes. For a page on this machine deflating takes longer than the way.
+///
+/// # Errors
+/// As [`film`].
+pub fn plain_film(recording: &Recording) -> Result<Vec<u8>, Error> {
+    fitted(recording, 0, MOST_PLAIN, plain)
+}
+
+type Joined = std::io::Result<Vec<u8>>;
+
+fn fitted(
+    recording: &Recording,
+    from: u64,
+    most: usize,
+    join: impl Fn(&[u8], &[Vec<u8>]) -> Joined,
+) -> Result<Vec<u8>, Error> {
     let first = recording.frames.partition_point(|frame| frame.iteration <= from).saturating_sub(1);
     let all: Vec<&Frame> = recording.frames.iter().skip(first).collect();
     let (mut coarser, mut every) = (1.0, 1);
     loop {
         let kept = thinned(&all, every);
-        let bytes = packed(recording, all.len(), &kept, coarser)?;
-        if bytes.len().div_ceil(3) * 4 <= MOST_BYTES || kept.len() <= 2 {
+        let (head, sections) = packed(recording, all.len(), &kept, coarser)?;
+        let bytes = join(&head, &sections).map_err(|why| Error::unwritable("the film", &why))?;
+        if bytes.len() <= most || kept.len() <= 2 {
             return Ok(bytes);
         }
         if coarser < COARSEST {
@@ -94,7 +117,13 @@ fn thinned<'a>(all: &[&'a Frame], every: usize) -> Vec<&'a Frame> {
     all.iter().enumerate().filter(|(index, _)| index % every == 0 || *index == last).map(|(_, frame)| *frame).collect()
 }
 
-fn packed(recording: &Recording, recorded: usize, kept: &[&Frame], coarser: f64) -> Result<Vec<u8>, Error> {
+/// The head, and the sections it tells of.
+fn packed(
+    recording: &Recording,
+    recorded: usize,
+    kept: &[&Frame],
+    coarser: f64,
+) -> Result<(Vec<u8>, [Vec<u8>; 5]), Error> {
     let (quantum, middle) = quantum::of(recording, coarser)?;
     let moves: Vec<bool> = (0..recording.bodies.len()).map(|body| ever_moves(kept, body)).collect();
     let mut iterations = Bytes::default();
@@ -121,17 +150,25 @@ fn packed(recording: &Recording, recorded: usize, kept: &[&Frame], coarser: f64)
         notes: notes(recording, recorded, kept.len()),
     };
     let head = serde_json::to_vec(&head).map_err(|why| Error::unwritable("the film", &why))?;
-    deflated(&head, &sections).map_err(|why| Error::unwritable("the film", &why))
+    Ok((head, sections))
 }
 
-fn deflated(head: &[u8], sections: &[Vec<u8>]) -> std::io::Result<Vec<u8>> {
+fn deflated(head: &[u8], sections: &[Vec<u8>]) -> Joined {
     let mut encoder = ZlibEncoder::new(Vec::new(), Compression::default());
-    encoder.write_all(&(head.len() as u32).to_le_bytes())?;
-    encoder.write_all(head)?;
-    for section in sections {
-        encoder.write_all(section)?;
-    }
+    write(&mut encoder, head, sections)?;
     encoder.finish()
+}
+
+fn plain(head: &[u8], sections: &[Vec<u8>]) -> Joined {
+    let mut bytes = Vec::new();
+    write(&mut bytes, head, sections)?;
+    Ok(bytes)
+}
+
+fn write(to: &mut impl Write, head: &[u8], sections: &[Vec<u8>]) -> std::io::Result<()> {
+    to.write_all(&(head.len() as u32).to_le_bytes())?;
+    to.write_all(head)?;
+    sections.iter().try_for_each(|section| to.write_all(section))
 }
 
 impl<'a> Actor<'a> {

@@ -25,7 +25,7 @@ mod quantum;
 mod text;
 
 pub use assets::{script, style};
-pub use film::film;
+pub use film::{film, plain_film};
 pub use page::{page, page_of_two};
 
 use crate::Error;

@@ -1,6 +1,7 @@
 // The player: a film in an element of a page. What a page calls:
 //
-//   const player = new choque.Player(element, film);     film = await choque.unpack(bytes), or null for later
+//   const player = new choque.Player(element, film);     film = await choque.unpack(bytes), or null for later;
+//                                                           choque.read(bytes) of bytes that are not deflated
 //   player.load(film)                                     another film: time, zoom, chosen body and playing stay
 //   player.load(film, { isMore: true })                   more of the film before: all of it is in view until someone steers
 //   player.overlay(film, { kind: "B", label })            another run over this one; null takes it away

@@ -59,16 +59,21 @@ class Plot {
     // Room for the longest reading, so that none moves another while the film plays.
     const longest = panel.curves.map(({ name, values }) => `${name} ${measure(-greatest(values), panel.unit)}`.length);
     this.readings.style.setProperty("--reading", `${0.88 * Math.max(0, ...longest)}ch + 34px`);
-    this.entries = panel.curves.map(({ name }) => {
+    const same = panel.curves.map(({ name }) => other?.curves.find((curve) => curve.name === name));
+    if (isOther(this.readings, panel.curves.map(({ name }, k) => [name, same[k] && other.label]))) this.#readingsOf(panel, other, same);
+    this.entries.forEach((entry, k) => (entry.same = same[k]));
+    this.draw();
+  }
+
+  #readingsOf(panel, other, same) {
+    this.entries = panel.curves.map(({ name }, k) => {
       const line = el("canvas", { class: "swatch", width: 52, height: 16, "aria-hidden": "true" });
       const [value, beside] = [el("output"), el("output", { class: "other" })];
-      const same = other?.curves.find((curve) => curve.name === name);
-      const spoken = same ? [el("span", { class: "visually-hidden", text: `, ${other.label}: ` }), beside] : [];
-      return { line, value, beside, same, item: el("li", {}, line, el("span", { class: "curve-name", title: name, text: name }), value, ...spoken) };
+      const spoken = same[k] ? [el("span", { class: "visually-hidden", text: `, ${other.label}: ` }), beside] : [];
+      return { line, value, beside, item: el("li", {}, line, el("span", { class: "curve-name", title: name, text: name }), value, ...spoken) };
     });
     const nothing = el("li", { text: "nothing was booked" });
     this.readings.replaceChildren(...(this.entries.length ? this.entries.map(({ item }) => item) : [nothing]));
-    this.draw();
   }
 
   draw() {
@@ -93,6 +98,7 @@ class Plot {
   }
 
   #swatch(canvas, { line, dash }) {
+    if (!isOther(canvas, [line, dash])) return;
     const pen = canvas.getContext("2d");
     pen.clearRect(0, 0, 52, 16);
     pen.setLineDash(dash.map((length) => length * 2));

@@ -166,10 +166,12 @@ function seriesOf(head, bytes) {
   return series;
 }
 
-/** A film from its bytes: an ArrayBuffer or Uint8Array as a page or a server carries it. */
-async function unpack(packed) {
-  const bytes = await inflate(packed);
-  const length = new DataView(bytes.buffer).getUint32(0, true);
+/** A film from its bytes: an ArrayBuffer or Uint8Array as a page carries it, deflated. */
+const unpack = async (packed) => read(await inflate(packed));
+
+/** A film from its bytes as they are: a Uint8Array. */
+function read(bytes) {
+  const length = new DataView(bytes.buffer, bytes.byteOffset).getUint32(0, true);
   const head = JSON.parse(new TextDecoder().decode(bytes.subarray(4, 4 + length)));
   if (head.format !== 1) throw new Error(`This player reads films of format 1, and this is one of format ${head.format}.`);
   let at = 4 + length;

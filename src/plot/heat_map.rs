@@ -4,7 +4,7 @@ use super::axis::Range;
 use super::drawing::{Drawing, Path, Stroke};
 use super::figure::{HEIGHT, NAME, TICK, WIDTH, headed};
 use super::lettering::Anchor;
-use super::palette::{Colour, GRID, INK, sequential};
+use super::palette::{Colour, FAINT, GRID, INK, diverging, sequential};
 
 /// What a heat map shows.
 #[derive(Clone, Debug)]
@@ -23,7 +23,7 @@ pub struct HeatMap {
     pub x_edges: Vec<f64>,
     /// The same for rows.
     pub y_edges: Vec<f64>,
-    /// The cells, row by row from below; grey where there is nothing.
+    /// The cells, row by row from below; grey where there is nothing. Numbers on both sides of 0 have colours that part there.
     pub cells: Vec<Option<f64>>,
 }
 
@@ -35,13 +35,15 @@ const BOTTOM: f64 = HEIGHT - 62.0;
 const SCALE: [f64; 2] = [WIDTH - 104.0, WIDTH - 84.0];
 /// Steps of the scale.
 const STEPS: usize = 64;
+/// Numbers that reach less far to one side of 0 are thought of as those of the other side, with what rounding makes of 0.
+const LEAST_SIDE: f64 = 0.01;
 
 impl HeatMap {
     /// The plot on a page.
     #[must_use]
     pub fn draw(&self) -> Drawing {
         let (mut drawing, below) = headed(&self.title, &self.subtitle, [SIDES[0], SCALE[1]]);
-        let plot = Plot { top: below + 14.0, values: self.values() };
+        let plot = self.plot(below + 14.0);
         let [x, y] = [&self.x_edges, &self.y_edges].map(|edges| span(edges));
         self.draw_cells(&mut drawing, &plot, &x, &y);
         self.draw_axes(&mut drawing, &plot, &x, &y);
@@ -49,8 +51,16 @@ impl HeatMap {
         drawing
     }
 
-    fn values(&self) -> Range {
-        Range::around(super::Scale::Linear, self.cells.iter().filter_map(|cell| *cell))
+    fn plot(&self, top: f64) -> Plot {
+        let numbers = || self.cells.iter().filter_map(|cell| *cell).filter(|number| number.is_finite());
+        let (low, high) = numbers().fold((0.0, 0.0), |(low, high): (f64, f64), n| (low.min(n), high.max(n)));
+        let (least, most) = (high.min(-low), high.max(-low));
+        if least <= LEAST_SIDE * most {
+            let values = Range::around(super::Scale::Linear, numbers());
+            return Plot { top, values, colours: sequential, nothing: GRID };
+        }
+        let values = Range::around(super::Scale::Linear, [-most, most].into_iter());
+        Plot { top, values, colours: diverging, nothing: FAINT }
     }
 
     fn draw_cells(&self, drawing: &mut Drawing, plot: &Plot, x: &Range, y: &Range) {
@@ -85,7 +95,7 @@ impl HeatMap {
     fn draw_scale(&self, drawing: &mut Drawing, plot: &Plot) {
         for step in 0..STEPS {
             let [low, high] = [step, step + 1].map(|edge| plot.up(Some(edge as f64 / STEPS as f64)).round());
-            let colour = sequential((step as f64 + 0.5) / STEPS as f64);
+            let colour = (plot.colours)((step as f64 + 0.5) / STEPS as f64);
             drawing.fill(Path::rect([SCALE[0], high], [SCALE[1], low]), colour);
         }
         for tick in plot.values.ticks() {
@@ -108,6 +118,9 @@ fn span(edges: &[f64]) -> Range {
 struct Plot {
     top: f64,
     values: Range,
+    /// The colour of a share of them, and of nothing.
+    colours: fn(f64) -> Colour,
+    nothing: Colour,
 }
 
 impl Plot {
@@ -120,6 +133,38 @@ impl Plot {
     }
 
     fn colour(&self, cell: Option<f64>) -> Colour {
-        cell.and_then(|value| self.values.place(value)).map_or(GRID, sequential)
+        cell.and_then(|value| self.values.place(value)).map_or(self.nothing, self.colours)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The colours of the cells.
+    fn colours(cells: &[f64]) -> Vec<Colour> {
+        let map = HeatMap {
+            title: String::new(),
+            subtitle: String::new(),
+            x: String::new(),
+            y: String::new(),
+            value: String::new(),
+            x_edges: (0..=cells.len()).map(|edge| edge as f64).collect(),
+            y_edges: vec![0.0, 1.0],
+            cells: cells.iter().map(|cell| Some(*cell)).collect(),
+        };
+        let plot = map.plot(0.0);
+        map.cells.iter().map(|cell| plot.colour(*cell)).collect()
+    }
+
+    #[test]
+    fn numbers_of_both_signs_part_at_nought() {
+        let found = colours(&[-1.0, 0.0, 4.0]);
+        assert_eq!(found, [diverging(0.375), diverging(0.5), diverging(1.0)]);
+        assert_eq!(colours(&[-4.0, 4.0]), [diverging(0.0), diverging(1.0)]);
+        for one_sided in [[0.0, 4.0], [-1e-9, 4.0], [2.0, 4.0], [-4.0, 0.0], [-4.0, 1e-9]] {
+            assert!(colours(&one_sided).iter().all(|colour| *colour != diverging(0.5)), "{one_sided:?}");
+            assert!([sequential(0.0), sequential(1.0)].contains(&colours(&one_sided)[1]), "{one_sided:?}");
+        }
     }
 }

@@ -41,14 +41,39 @@ const SEQUENCE: [Colour; 10] = [
     [253, 231, 37],
 ];
 
+/// Blue over white to red (Brewer 2003), for what has a sign: colour-blind eyes see blue and a brownish yellow.
+const SIDES: [Colour; 11] = [
+    [5, 48, 97],
+    [33, 102, 172],
+    [67, 147, 195],
+    [146, 197, 222],
+    [209, 229, 240],
+    [247, 247, 247],
+    [253, 219, 199],
+    [244, 165, 130],
+    [214, 96, 77],
+    [178, 24, 43],
+    [103, 0, 31],
+];
+
 /// The colour of a share from 0, least, to 1, most.
 #[must_use]
 pub fn sequential(share: f64) -> Colour {
-    let along = share.clamp(0.0, 1.0) * (SEQUENCE.len() - 1) as f64;
-    let below = (along as usize).min(SEQUENCE.len() - 2);
+    between(&SEQUENCE, share)
+}
+
+/// The same where ½ is 0: blue below, white there, red above.
+#[must_use]
+pub fn diverging(share: f64) -> Colour {
+    between(&SIDES, share)
+}
+
+fn between(stops: &[Colour], share: f64) -> Colour {
+    let along = share.clamp(0.0, 1.0) * (stops.len() - 1) as f64;
+    let below = (along as usize).min(stops.len() - 2);
     let part = along - below as f64;
     std::array::from_fn(|channel| {
-        let [low, high] = [below, below + 1].map(|stop| f64::from(SEQUENCE[stop][channel]));
+        let [low, high] = [below, below + 1].map(|stop| f64::from(stops[stop][channel]));
         (low + (high - low) * part).round() as u8
     })
 }
@@ -84,5 +109,34 @@ impl Look {
         };
         let stroke = Some(Stroke::full(PAPER, 1.2));
         drawing.shapes.push(Shape { path, fill: Some(self.colour()), stroke });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What eyes without one kind of cone make of a colour (Viénot, Brettel and Mollon 1999), in linear light.
+    fn seen(colour: Colour, rows: [[f64; 3]; 3]) -> [f64; 3] {
+        let linear = colour.map(|channel| libm::pow(f64::from(channel) / 255.0, 2.2));
+        rows.map(|row| row.iter().zip(linear).map(|(share, channel)| share * channel).sum::<f64>().clamp(0.0, 1.0))
+    }
+
+    #[test]
+    fn the_two_sides_stay_apart_for_colour_blind_eyes() {
+        let usual = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        let no_red = [[0.112, 0.888, 0.0], [0.112, 0.888, 0.0], [0.004, -0.004, 1.0]];
+        let no_green = [[0.293, 0.707, 0.0], [0.293, 0.707, 0.0], [-0.022, 0.022, 1.0]];
+        for eyes in [usual, no_red, no_green] {
+            for side in [0.1, 0.2, 0.3, 0.4] {
+                // What tells sides apart, whatever the light: the share of blue in it.
+                let blue = |share| {
+                    let [red, green, blue] = seen(diverging(share), eyes);
+                    blue / (red + green + blue)
+                };
+                assert!(blue(0.5 - side) > 1.0 / 3.0 + 0.02 && blue(0.5 + side) < 1.0 / 3.0 - 0.02, "{side} {eyes:?}");
+            }
+        }
+        assert_eq!(diverging(0.5), [247, 247, 247]);
     }
 }

@@ -40,6 +40,8 @@ pub struct About {
     pub steps: u64,
     /// Iterations from one frame to the next.
     pub every: u64,
+    /// Whether bodies tell of restitution and friction of their own; the first recordings do not.
+    pub surfaces: bool,
     /// The causes of its ledger, and what the mobile bodies had at the start, by [`Amounts::NAMES`]; without causes no
     /// ledger was kept.
     pub causes: Vec<String>,
@@ -150,6 +152,7 @@ impl About {
             time_step: plan.time_step,
             steps: plan.steps,
             every,
+            surfaces: true,
             causes: ledger.as_ref().map(|_| Cause::WORDS.map(str::to_owned).to_vec()).unwrap_or_default(),
             initial: ledger.map(|ledger| ledger.initial().to_array()).unwrap_or_default(),
         }

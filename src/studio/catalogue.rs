@@ -4,6 +4,7 @@ use std::fs;
 use std::io::{self, Read};
 use std::path::{Component, Path, PathBuf};
 
+use choque_scripting::Scenario;
 use serde::Serialize;
 
 /// A folder of this name holds what scenarios import, not scenarios.
@@ -14,8 +15,6 @@ const PASSED_OVER: [&str; 2] = ["target", "node_modules"];
 const MOST: usize = 5_000;
 /// Bytes of a file in which its first sentence is looked for, and what kind of file it is.
 const BEGINNING: u64 = 4096;
-/// What scenarios are: scripts and plain scenes.
-const EXTENSIONS: [&str; 2] = ["rhai", "ron"];
 
 /// The folder that the studio shows.
 #[derive(Clone, Debug)]
@@ -75,9 +74,8 @@ impl Catalogue {
         let is_plain =
             |part: Component| matches!(part, Component::Normal(name) if !name.as_encoded_bytes().starts_with(b"."));
         let relative = Path::new(id);
-        let is_scenario = !id.contains(['\\', ':', '\0'])
-            && relative.extension().is_some_and(|extension| EXTENSIONS.iter().any(|known| extension == *known))
-            && relative.components().all(is_plain);
+        let is_scenario =
+            !id.contains(['\\', ':', '\0']) && Scenario::is_named(relative) && relative.components().all(is_plain);
         if !is_scenario {
             return None;
         }
@@ -91,9 +89,10 @@ impl Catalogue {
 fn about(path: &Path) -> Option<String> {
     let text = beginning(path).unwrap_or_default(); // who opens it is told why it cannot be read
     let text = text.trim_start_matches('\u{feff}');
-    let is_plain = path.extension().is_some_and(|extension| extension == "ron");
     let says_something = |line: &&str| !line.is_empty() && !line.starts_with("//") && !line.starts_with("#!");
-    if is_plain && text.lines().map(str::trim).find(says_something).is_some_and(|line| line.starts_with("Sweep")) {
+    if !Scenario::is_script(path)
+        && text.lines().map(str::trim).find(says_something).is_some_and(|line| line.starts_with("Sweep"))
+    {
         return None;
     }
     let first = text.lines().next().unwrap_or_default();

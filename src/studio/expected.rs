@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use choque_engine::World;
 use serde::Serialize;
@@ -82,12 +82,4 @@ impl Expected {
         }
         difference
     }
-}
-
-/// Where a script's snapshot lies: beside the nearest folder named `scenarios` above it, at the same path below `snapshots`.
-pub(super) fn snapshot_of(script: &Path) -> Option<PathBuf> {
-    let script = script.canonicalize().ok()?;
-    let scenarios = script.ancestors().find(|folder| folder.file_name().is_some_and(|name| name == "scenarios"))?;
-    let below = script.strip_prefix(scenarios).ok()?.with_extension("snap");
-    Some(scenarios.parent()?.join("snapshots").join(below))
 }

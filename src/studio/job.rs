@@ -2,7 +2,7 @@
 
 use std::cell::RefCell;
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::rc::Rc;
 use std::time::{Duration, Instant};
 
@@ -10,16 +10,16 @@ use choque_engine::note;
 use choque_scripting::{Diagnostic, Options, Output, Run, Scenario, Step, Stop};
 use serde_json::{Value, json};
 
-use super::expected::{Expected, snapshot_of};
+use super::expected::Expected;
 use super::files::{Seen, digest, watching};
 use super::queue::Answer;
-use super::save::is_script;
 use super::{message, sliders};
 use crate::arguments::ScenarioArguments;
 use crate::clock::now;
+use crate::harness::snapshot_of;
 use crate::outcome::{Judgement, Outcome};
 use crate::play::Watch;
-use crate::player::film;
+use crate::player::plain_film;
 use crate::recording::recorder::{InMemory, Recorder, Settings};
 
 /// The first frames are sent after that time, and again whenever as much time has passed as until then: a page shows something
@@ -56,21 +56,51 @@ impl From<Diagnostic> for Broken {
     }
 }
 
-/// Runs a scenario and sends what comes of it; gives the files it was made of.
-pub(super) fn run(job: &Job, answer: &Answer, stop: &Stop) -> Seen {
-    let desk =
-        Desk { job, answer, stop, begun: now(), seen: Rc::default(), printed: Rc::default(), expected: expected(job) };
-    if let Some(snapshot) = snapshot_of(&job.path) {
-        desk.seen.borrow_mut().add(&snapshot);
+/// What is kept of a scenario from one run to the next: as long as none of its files changes, only its main part runs again.
+struct Kept {
+    path: PathBuf,
+    /// Once it could be loaded.
+    scenario: RefCell<Option<Rc<Scenario>>>,
+    seen: Rc<RefCell<Seen>>,
+    printed: Rc<RefCell<Vec<String>>>,
+    expected: Option<Result<Expected, String>>,
+}
+
+impl Kept {
+    fn of(path: &Path) -> Self {
+        let seen = Rc::new(RefCell::new(Seen::default()));
+        let expected = snapshot_of(path).and_then(|snapshot| {
+            seen.borrow_mut().add(&snapshot);
+            Expected::of(&snapshot)
+        });
+        Kept { path: path.to_owned(), scenario: RefCell::default(), seen, printed: Rc::default(), expected }
     }
+
+    fn still_holds(&self, path: &Path) -> bool {
+        let seen = self.seen.borrow();
+        self.path == path && self.scenario.borrow().is_some() && seen.stamp() == seen.stamp_now()
+    }
+}
+
+/// What the thread of a run keeps for the next.
+#[derive(Default)]
+pub(super) struct Shelf(Option<Kept>);
+
+/// Runs a scenario and sends what comes of it; gives the files it was made of.
+pub(super) fn run(job: &Job, shelf: &mut Shelf, answer: &Answer, stop: &Stop) -> Seen {
+    let begun = now();
+    let kept = shelf.0.take().filter(|kept| kept.still_holds(&job.path)).unwrap_or_else(|| Kept::of(&job.path));
+    let desk = Desk { job, answer, stop, begun, kept: &kept };
     if let Err(Broken::Error(error)) = desk.play() {
         desk.say_printed();
         desk.say(&json!({
             "event": "error", "text": error.to_string(), "line": error.line, "source": desk.pointed_at(&error),
-            "stamp": desk.seen.borrow().stamp(),
+            "stamp": kept.seen.borrow().stamp(),
         }));
     }
-    desk.seen.take()
+    let seen = kept.seen.borrow().clone();
+    shelf.0 = Some(kept);
+    seen
 }
 
 /// What a run works with.
@@ -79,13 +109,7 @@ struct Desk<'a> {
     answer: &'a Answer,
     stop: &'a Stop,
     begun: Instant,
-    seen: Rc<RefCell<Seen>>,
-    printed: Rc<RefCell<Vec<String>>>,
-    expected: Option<Result<Expected, String>>,
-}
-
-fn expected(job: &Job) -> Option<Result<Expected, String>> {
-    Expected::of(&snapshot_of(&job.path)?)
+    kept: &'a Kept,
 }
 
 impl Desk<'_> {
@@ -104,7 +128,7 @@ impl Desk<'_> {
         let outcome = Outcome::new(&scenario, &world, expectations);
         self.say_film(&recorder.finish(&world, &judgements))?;
         self.say_printed();
-        let difference = self.expected.as_ref().and_then(|expected| expected.as_ref().ok());
+        let difference = self.kept.expected.as_ref().and_then(|expected| expected.as_ref().ok());
         let difference = difference.map(|expected| expected.difference(&world));
         self.say(&json!({ "event": "done", "outcome": told(&outcome), "difference": difference }));
         Ok(())
@@ -112,7 +136,7 @@ impl Desk<'_> {
 
     /// The scenario with the sliders' values; those that it no longer knows, or that are out of bounds by now, are dropped and
     /// named. A script that is wrong without any is told of as it is.
-    fn load(&self) -> Result<(Scenario, Vec<String>), Broken> {
+    fn load(&self) -> Result<(Rc<Scenario>, Vec<String>), Broken> {
         let set = &self.job.set;
         let wrong = match self.load_with(set) {
             Ok(scenario) => return Ok((scenario, Vec::new())),
@@ -133,23 +157,32 @@ impl Desk<'_> {
         Ok((self.load_with(&kept)?, dropped))
     }
 
-    fn load_with(&self, set: &[(String, f64)]) -> Result<Scenario, Diagnostic> {
-        self.printed.borrow_mut().clear();
-        let printed = self.printed.clone();
-        let mut options = Options {
+    fn load_with(&self, set: &[(String, f64)]) -> Result<Rc<Scenario>, Diagnostic> {
+        let Kept { scenario, seen, printed, .. } = self.kept;
+        printed.borrow_mut().clear();
+        let given = self.job.arguments.options();
+        let set = [given.set.as_slice(), set].concat();
+        if let Some(known) = &*scenario.borrow() {
+            known.heed(self.stop);
+            return known.with(&set, given.overrides).map(Rc::new);
+        }
+        let printed = printed.clone();
+        let options = Options {
+            set,
             output: Output::to(move |line| {
                 let mut printed = printed.borrow_mut();
                 if printed.len() < MOST_PRINTED.0 {
                     printed.push(line.chars().take(MOST_PRINTED.1).collect());
                 }
             }),
-            reads: watching(&self.seen),
+            reads: watching(seen),
             stop: self.stop.clone(),
-            ..self.job.arguments.options()
+            script_timeout: given.script_timeout.min(self.job.time),
+            ..given
         };
-        options.set.extend_from_slice(set);
-        options.script_timeout = options.script_timeout.min(self.job.time);
-        Scenario::load(&self.job.path, &options)
+        let loaded = Rc::new(Scenario::load(&self.job.path, &options)?);
+        scenario.replace(Some(loaded.clone()));
+        Ok(loaded)
     }
 
     /// Plays to the end, or as long as it may; sends frames now and then.
@@ -192,7 +225,7 @@ impl Desk<'_> {
 
     /// The whole text that an error points into, for the page to show the line where it stands.
     fn pointed_at(&self, error: &Diagnostic) -> Option<Value> {
-        let file = error.file.as_ref().filter(|file| error.line.is_some() && self.seen.borrow().has(file))?;
+        let file = error.file.as_ref().filter(|file| error.line.is_some() && self.kept.seen.borrow().has(file))?;
         let text = fs::read(file).ok().filter(|bytes| bytes.len() <= LONGEST_SHOWN)?;
         Some(json!({ "name": file.display().to_string(), "text": String::from_utf8_lossy(&text) }))
     }
@@ -204,7 +237,7 @@ impl Desk<'_> {
     fn say_scene(&self, scenario: &Scenario, run: &Run, dropped: &[String]) {
         let world = run.world();
         let plan = world.plan();
-        let (ghosts, unreadable) = match &self.expected {
+        let (ghosts, unreadable) = match &self.kept.expected {
             Some(Ok(expected)) => (Some(expected.ghosts()), None),
             Some(Err(why)) => (None, Some(why)),
             None => (None, None),
@@ -214,21 +247,21 @@ impl Desk<'_> {
         self.say(&json!({
             "event": "scene", "title": scenario.title(), "steps": plan.steps, "time_step": plan.time_step,
             "bodies": world.len(), "sliders": sliders::of(scenario.controls(), scenario.scene()), "dropped": dropped,
-            "is_script": is_script(&self.job.path), "notes": notes, "expected": ghosts, "unreadable": unreadable, "text": scenario.text(),
-            "digest": digest(scenario.text()), "stamp": self.seen.borrow().stamp(),
+            "is_script": Scenario::is_script(&self.job.path), "notes": notes, "expected": ghosts, "unreadable": unreadable, "text": scenario.text(),
+            "digest": digest(scenario.text()), "stamp": self.kept.seen.borrow().stamp(),
         }));
     }
 
     fn say_film(&self, recording: &crate::recording::Recording) -> Result<(), Broken> {
         self.go_on()?;
-        let film = film(recording, 0).map_err(|error| Diagnostic::new(error.to_string()).in_file(&self.job.path))?;
+        let film = plain_film(recording).map_err(|error| Diagnostic::new(error.to_string()).in_file(&self.job.path))?;
         self.answer.send(message::film(&film));
         Ok(())
     }
 
     /// What the script printed since the last time.
     fn say_printed(&self) {
-        let lines = self.printed.borrow();
+        let lines = self.kept.printed.borrow();
         if !lines.is_empty() {
             self.say(&json!({ "event": "printed", "lines": *lines }));
         }

@@ -55,7 +55,7 @@ pub struct StudioArguments {
     scenario: ScenarioArguments,
 }
 
-/// Threads beside the runs: for files, which take moments.
+/// Threads for files, which take moments.
 const FILE_THREADS: usize = 4;
 /// Of a thread: the deepest script needs less than 2 MiB.
 const STACK: usize = 4 << 20;
@@ -71,7 +71,7 @@ pub fn studio(arguments: &StudioArguments) -> Result<Verdict, Error> {
     let runs = std::thread::available_parallelism().map_or(1, usize::from);
     let runtime = tokio::runtime::Builder::new_current_thread()
         .enable_io()
-        .max_blocking_threads(runs + FILE_THREADS)
+        .max_blocking_threads(FILE_THREADS)
         .thread_stack_size(STACK)
         .build()
         .map_err(|error| cannot_start(&error))?;

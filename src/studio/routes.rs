@@ -20,7 +20,7 @@ use serde_json::json;
 use super::catalogue::Catalogue;
 use super::files::{Seen, digest};
 use super::guard::{self, Guard};
-use super::job::{Job, run};
+use super::job::{Job, Shelf, run};
 use super::queue::Queue;
 use super::save::{Refused, save};
 use crate::arguments::ScenarioArguments;
@@ -34,7 +34,7 @@ pub(super) struct Studio {
     catalogue: Catalogue,
     arguments: ScenarioArguments,
     run_timeout: Duration,
-    queue: Queue,
+    queue: Queue<Shelf>,
     /// Of each scenario that was run, the files it was made of.
     seen: Mutex<BTreeMap<String, Seen>>,
     /// Two pages do not write at once; whoever waits takes no thread meanwhile.
@@ -116,11 +116,12 @@ async fn start_run(State(studio): Shared, headers: HeaderMap, body: Bytes) -> Re
     let path = script(&studio, scenario.clone()).await?;
     let (arguments, time) = (studio.arguments.clone(), studio.run_timeout);
     let shared = studio.clone();
-    let work = move |answer: &_, stop: &_| {
-        let seen = run(&Job { path, set, arguments, time }, answer, stop);
+    let what = scenario.clone();
+    let work = move |shelf: &mut Shelf, answer: &_, stop: &_| {
+        let seen = run(&Job { path, set, arguments, time }, shelf, answer, stop);
         shared.seen().insert(scenario, seen);
     };
-    let body = studio.queue.run(work).await.map_err(|error| Refusal::here(&error))?;
+    let body = studio.queue.run(what, work).await.map_err(|error| Refusal::here(&error))?;
     Ok(([(header::CONTENT_TYPE, "application/octet-stream")], body).into_response())
 }
 

@@ -5,7 +5,7 @@ use std::fs;
 use std::io;
 use std::path::Path;
 
-use choque_scripting::{Options, write_back};
+use choque_scripting::{Options, Scenario, write_back};
 use serde::Serialize;
 use thiserror::Error;
 
@@ -52,7 +52,7 @@ const BYTE_ORDER_MARK: &str = "\u{feff}";
 /// # Errors
 /// See [`Refused`]. The file is then as it was.
 pub(super) fn save(path: &Path, run: &str, values: &[(String, f64)], options: &Options) -> Result<Saved, Refused> {
-    if !is_script(path) {
+    if !Scenario::is_script(path) {
         return Err(Refused::Plain);
     }
     let old = fs::read_to_string(path)?;
@@ -70,11 +70,6 @@ pub(super) fn save(path: &Path, run: &str, values: &[(String, f64)], options: &O
         return if is_written { Ok(saved) } else { Err(Refused::Changed) };
     }
     Ok(saved)
-}
-
-/// Whether values can be written into it.
-pub(super) fn is_script(path: &Path) -> bool {
-    path.extension().is_some_and(|extension| extension == "rhai")
 }
 
 /// The lines of a text that its old version does not have at that place: values are replaced within lines, and settings are

@@ -17,7 +17,7 @@ const RANGES: usize = 4;
 /// Every plot with the name of its file.
 #[must_use]
 pub fn of(plan: &Plan, columns: &Columns, rows: &[Row]) -> Vec<(String, String)> {
-    let plots = plan.plots.clone().unwrap_or_else(|| usual(plan));
+    let plots = plan.plots.clone().unwrap_or_else(|| usual(plan, columns));
     let mut drawn = Vec::new();
     let scenarios = scenarios(columns, rows);
     for scenario in &scenarios {
@@ -31,10 +31,10 @@ pub fn of(plan: &Plan, columns: &Columns, rows: &[Row]) -> Vec<(String, String)>
 }
 
 /// What suits the points: a heat map where two numbers vary, curves where one does.
-fn usual(plan: &Plan) -> Vec<Drawn> {
+fn usual(plan: &Plan, columns: &Columns) -> Vec<Drawn> {
     let value = plan.read.first().cloned().unwrap_or_else(|| "kinetic_energy".to_owned());
     let varies = |axis: &&super::axis::Axis| axis.range().is_some_and(|(from, to)| from < to) || axis.values.len() > 1;
-    let name = |axis: &super::axis::Axis| axis.name.clone();
+    let name = |axis: &super::axis::Axis| columns.heading(&axis.name).to_owned();
     let (numbers, words): (Vec<_>, Vec<_>) = plan.vary.iter().filter(varies).partition(|axis| axis.is_numeric());
     match numbers.as_slice() {
         [] => Vec::new(),
@@ -174,7 +174,8 @@ impl Table<'_> {
         let mut levels: Vec<f64> = numbers().collect();
         levels.sort_by(f64::total_cmp);
         levels.dedup();
-        let is_grid = self.plan.points == Points::Grid && self.plan.vary.iter().any(|axis| axis.name == name);
+        let is_grid = self.plan.points == Points::Grid
+            && self.plan.vary.iter().any(|axis| self.columns.heading(&axis.name) == name);
         if is_grid || levels.len() <= MOST_LEVELS {
             return Bins::of(levels);
         }

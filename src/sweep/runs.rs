@@ -193,10 +193,9 @@ fn find(file: &PlanFile, folder: &Path, pattern: &str) -> Result<Vec<(String, Pa
     for path in paths {
         let path =
             path.map_err(|error| Error::File { verb: "read", path: error.path().to_owned(), source: error.into() })?;
-        let is_scenario = path.extension().is_some_and(|extension| extension == "rhai" || extension == "ron");
         let below = path.strip_prefix(folder).unwrap_or(&path);
         let in_library = below.parent().is_some_and(|folder| folder.iter().any(|part| part == LIBRARY));
-        if is_scenario && !in_library && path.is_file() {
+        if Scenario::is_named(&path) && !in_library && path.is_file() {
             found.push((below.to_string_lossy().replace('\\', "/"), path));
         }
     }

@@ -1,5 +1,7 @@
 //! The table of a sweep: its columns, and rows as text and back.
 
+use std::collections::BTreeMap;
+
 use choque_engine::Work;
 
 use super::plan::Plan;
@@ -48,6 +50,9 @@ pub struct Row {
     pub cells: Vec<Cell>,
 }
 
+/// Stands before the name of a param that is named like what the table tells of a run.
+const PREFIX: &str = "param.";
+
 /// What a run ended as: the two values of the column `kind`.
 pub const KINDS: [&str; 2] = ["run", "error"];
 
@@ -67,6 +72,8 @@ pub const TOTALS: [(&str, Kind, Option<&str>); 7] = [
 pub struct Columns {
     /// From left to right.
     pub all: Vec<Column>,
+    /// Of what varies or is set: its name, and its heading.
+    names: BTreeMap<String, String>,
     /// How many of them say what a run was asked for.
     asked: usize,
 }
@@ -86,17 +93,10 @@ impl Columns {
             column("scenario", Kind::Text, None),
             column("point", Kind::Whole, None),
         ];
-        let numeric = |is_numeric| if is_numeric { Kind::Number } else { Kind::Text };
-        let usual = |name: &str| if name == "time_step" { Some("s") } else { None };
-        for axis in &plan.vary {
-            all.push(column(&axis.name, numeric(axis.is_numeric()), axis.unit.as_deref().or(usual(&axis.name))));
-        }
-        for (name, value) in &plan.set {
-            all.push(column(name, numeric(matches!(value, super::axis::Value::Number(_))), usual(name)));
-        }
+        let asked_for = all.len();
         all.push(column("seed", Kind::Whole, None));
         all.push(column("version", Kind::Text, None));
-        let asked = all.len();
+        let told = all.len();
         all.extend(TOTALS.map(|(name, kind, unit)| column(name, kind, unit)));
         all.push(column("digest", Kind::Text, None));
         all.extend(["held", "failed"].map(|name| column(name, Kind::Whole, None)));
@@ -105,7 +105,27 @@ impl Columns {
         let counts = Work::default().rows();
         all.extend(counts.iter().map(|(label, _)| column(&label.replace(['–', ' '], "_"), Kind::Whole, None)));
         all.push(column("error", Kind::Text, None));
-        Columns { all, asked }
+        let numeric = |is_numeric| if is_numeric { Kind::Number } else { Kind::Text };
+        let usual = |name: &str| if name == "time_step" { Some("s") } else { None };
+        let varied = plan.vary.iter().map(|axis| (&axis.name, axis.is_numeric(), axis.unit.as_deref()));
+        let set = plan.set.iter().map(|(name, value)| (name, matches!(value, super::axis::Value::Number(_)), None));
+        let mut names = BTreeMap::new();
+        let mut added = Vec::new();
+        for (name, is_numeric, unit) in varied.chain(set) {
+            let is_taken = all.iter().any(|column| column.name == *name);
+            let heading = if is_taken { format!("{PREFIX}{name}") } else { name.clone() };
+            added.push(column(&heading, numeric(is_numeric), unit.or(usual(name))));
+            names.insert(name.clone(), heading);
+        }
+        let asked = told + added.len();
+        all.splice(asked_for..asked_for, added);
+        Columns { all, names, asked }
+    }
+
+    /// The heading of what varies or is set: its name, or `param.time` where the table tells of a `time` of its own.
+    #[must_use]
+    pub fn heading<'a>(&'a self, name: &'a str) -> &'a str {
+        self.names.get(name).map_or(name, String::as_str)
     }
 
     /// Where a column stands.
@@ -114,7 +134,7 @@ impl Columns {
         self.all.iter().position(|column| column.name == name)
     }
 
-    /// Two columns of one name: a param that is named like what is told of a run.
+    /// Two columns of one name: a param that is named like another's heading.
     #[must_use]
     pub fn twice(&self) -> Option<&str> {
         let (place, _) = self

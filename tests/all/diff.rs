@@ -1,6 +1,7 @@
 //! Two runs that part: for each stage a pair that first differs there, named with iteration, body, pair and numbers.
 
 use choque::diff::growth::growth;
+use choque::diff::told::comparison;
 use choque::diff::{Parting, Stage, parting};
 use choque::recording::{Recording, Settings, record};
 use choque_engine::scene::Detection;
@@ -118,9 +119,12 @@ fn an_exchange_that_differs_is_named() {
 
 #[test]
 fn lasting_contacts_and_continuous_motion_have_stages_too() {
-    for setting in
-        ["exchange(\"impulse\");", "motion(\"continuous\");", "motion(\"continuous\"); exchange(\"impulse\");"]
-    {
+    for setting in [
+        "exchange(\"impulse\");",
+        "exchange(\"impulse\"); detection(\"vertices\");",
+        "motion(\"continuous\");",
+        "motion(\"continuous\"); exchange(\"impulse\");",
+    ] {
         let script = format!("{setting}{MEETING}");
         let of = |settings: [&[(&str, f64)]; 2]| parted(&script, [&set(settings[0]), &set(settings[1])]).0.stage;
         let law: [&[(&str, f64)]; 2] =
@@ -198,7 +202,7 @@ fn bodies_that_only_one_has_are_named_and_the_others_compared() {
 fn growth_names_a_body_that_differs() {
     let (a, b) = (run(MEETING, &set(&[])), run(MEETING, &set(&[("mu_l", 0.8)])));
     let found = parting(&a, &b).expect("they part");
-    let all = growth(&a, &b, found.iteration + 1);
+    let all = growth(&a, &b, found.iteration + 1).moments;
     let first = all[0];
     assert_eq!(
         (first.distance, first.bodies, first.body),
@@ -207,7 +211,7 @@ fn growth_names_a_body_that_differs() {
     );
     assert!(all.last().is_some_and(|last| last.distance > 0.01 && last.iteration == 60), "{all:?}");
     let turned = run(&MEETING.replace(".mass(2)", ".angle(0.01).mass(2)"), &set(&[]));
-    let start = growth(&a, &turned, 0)[0];
+    let start = growth(&a, &turned, 0).moments[0];
     // A corner is √½ from the middle: turned by 0.01 it is 2 sin(0.005) of that away.
     assert!((start.distance - 2.0 * libm::sin(0.005) * libm::sqrt(0.5)).abs() < 1e-15, "{start:?}");
     assert_eq!(names(&a, &[start.body.expect("a body")]), ["b"]);
@@ -216,7 +220,9 @@ fn growth_names_a_body_that_differs() {
         overrides: Overrides { time_step: Some(1.0 / 128.0), steps: Some(120), ..Overrides::default() },
         ..Options::default()
     };
-    let fine = growth(&a, &run(MEETING, &halved), 1);
+    let growth = growth(&a, &run(MEETING, &halved), 1);
+    let fine = growth.moments;
+    assert!(growth.is_by_time);
     assert_eq!((fine.len(), fine[0].distance, fine[0].body), (60, 0.0, None), "free flight is exact: {:?}", fine[0]);
 }
 
@@ -247,6 +253,38 @@ fn a_scene_that_differs_is_no_stage_of_an_iteration() {
     let b = run(&format!("{MEETING}mobile(\"new\").rect(1, 1).at(30, 0);"), &set(&[]));
     assert_eq!(parting(&a, &b).expect("they part").what, "only B has a body \"new\"");
     assert_eq!(parting(&a, &a), None);
+}
+
+/// The first recordings tell of no body's own restitution and friction: that says nothing of whether they had some.
+#[test]
+fn what_the_first_recordings_do_not_tell_is_no_difference() {
+    let lively = MEETING.replace(".mass(2)", ".mass(2).restitution(0.5)");
+    let new = run(&lively, &set(&[]));
+    let mut old = new.clone();
+    old.about.surfaces = false;
+    old.bodies.iter_mut().for_each(|body| body.restitution = None);
+    let said = comparison(["old", "new"], [&old, &new]);
+    assert!(said.same && !said.text.contains("restitution"), "{}", said.text);
+    let dull = comparison(["dull", "lively"], [&run(MEETING, &set(&[])), &new]);
+    assert!(dull.text.contains("b, restitution: the scene's against 0.5"), "{}", dull.text);
+}
+
+/// The same said of both, and another outcome: as after a change of the program.
+#[test]
+fn a_difference_that_nothing_told_explains_is_the_programs() {
+    let old = run(MEETING, &set(&[]));
+    let mut new = old.clone();
+    for frame in &mut new.frames[20..] {
+        frame.states[1].x += 1e-9;
+    }
+    let said = comparison(["old", "new"], [&old, &new]).text;
+    assert!(
+        said.contains("they part in iteration 19")
+            && said.contains(&format!("both are of choque {}: the programs differ", old.about.choque)),
+        "{said}"
+    );
+    let set_otherwise = comparison(["a", "b"], [&old, &run(MEETING, &set(&[("mu_l", 0.8)]))]).text;
+    assert!(!set_otherwise.contains("the programs differ"), "{set_otherwise}");
 }
 
 #[test]

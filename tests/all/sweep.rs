@@ -83,6 +83,28 @@ fn the_table_is_the_same_at_any_number_of_jobs_and_shards() {
 }
 
 #[test]
+fn a_param_that_is_named_like_a_column_has_one_of_its_own() {
+    let script = "steps(30);
+        mobile(\"a\").rect(1, 1).velocity(param(\"time\", 1) + param(\"point\", 0) * param(\"seed\", 1), 0);";
+    let plan = "(scenarios: [\"named.rhai\"], vary: [(name: \"time\", values: [1, -1]), (name: \"point\", from: 1, to: 3, count: 2)],
+        set: { \"seed\": 2 }, seeds: [7], read: [\"a.x\"])";
+    let folder = folder(&[("named.rhai", script), ("plan.ron", plan)]);
+    let at = folder.path();
+    said(at, &["sweep", "plan.ron", "-o", "out"], 0);
+    let table = read(at, "out/rows.csv");
+    let cells = |name| column(&table, name).join(" ");
+    assert_eq!([cells("time"), cells("point"), cells("seed")], ["0.5 0.5 0.5 0.5", "0 1 2 3", "7 7 7 7"]);
+    let asked = ["param.time", "param.point", "param.seed", "a.x"].map(cells);
+    assert_eq!(asked, ["1.0 1.0 -1.0 -1.0", "1.0 3.0 1.0 3.0", "2.0 2.0 2.0 2.0", "1.5 3.5 0.5 2.5"]);
+    assert!(at.join("out/named_a.x_over_param.time_param.point.svg").is_file(), "what suits the points");
+    write(
+        &at.join("drawn.ron"),
+        &plan.replace("read:", "plots: [HeatMap(x: \"time\", y: \"param.time\", value: \"a.x\")], read:"),
+    );
+    said(at, &["sweep", "drawn.ron", "-o", "drawn"], 0);
+}
+
+#[test]
 fn a_sweep_that_was_stopped_goes_on_where_it_was() {
     let folder = set_up();
     let at = folder.path();

@@ -1,10 +1,10 @@
-//! What contacts need where bodies move in steps and hand impulses over.
+//! What contacts need where bodies move in steps, hand impulses over and all overlaps are seen.
 
 use core::fmt;
 
 use crate::census::Census;
 use crate::load;
-use crate::scene::{Body, ExchangeRule, Kind, MotionRule, Scene};
+use crate::scene::{Body, Kind, Scene};
 
 /// Sub-steps where a scene does not say. Fewer hold piles worse, more take longer; 4 is also what Box2D v3 takes, so that
 /// costs can be compared.
@@ -24,11 +24,11 @@ pub struct ContactPlan {
 }
 
 impl ContactPlan {
-    /// `None` with another exchange, in continuous motion, and where nothing can collide.
+    /// `None` where contacts are not solved ([`Settings::solves_contacts`](crate::scene::Settings::solves_contacts)), and where
+    /// nothing can collide.
     pub(super) fn resolve(scene: &Scene, census: &Census) -> Option<Self> {
         let settings = &scene.settings;
-        let is_solved = settings.motion == MotionRule::Stepped && settings.exchange == ExchangeRule::Impulse;
-        (is_solved && census.pairs() > 0).then(|| ContactPlan {
+        (settings.solves_contacts() && census.pairs() > 0).then(|| ContactPlan {
             substeps: settings.substeps.unwrap_or(SUBSTEPS),
             friction: has_friction(scene),
             restitution: collidable(scene).any(|body| load::surface(body, settings).restitution > 0.0),

@@ -1,8 +1,10 @@
 //! Only what a scene needs: what is off does no work, and the plan says so.
 
 use choque_engine::plan::{BroadPhasePlan, ContactPlan};
-use choque_engine::scene::{Body, BroadPhaseChoice, ExchangeRule, Kind, MotionRule, Part, Scene, Settings, Swing};
-use choque_engine::{Extent, Plan, Vec2, Work, World};
+use choque_engine::scene::{
+    Body, BroadPhaseChoice, Detection, ExchangeRule, Kind, MotionRule, Part, Scene, Settings, Swing,
+};
+use choque_engine::{Extent, Plan, Vec2, Work, World, note};
 
 use crate::{after, body, scene};
 
@@ -185,6 +187,7 @@ fn contacts_are_planned_where_impulses_meet_in_steps() {
     assert_eq!(contact(|s| s.sleeping = true), Some(ContactPlan { sleeping: true, ..frugal }));
     assert_eq!(contact(|s| s.motion = MotionRule::Continuous), None);
     assert_eq!(contact(|s| s.exchange = ExchangeRule::Document), None);
+    assert_eq!(contact(|s| s.detection = Some(Detection::Vertices)), None);
     assert_eq!(Plan::resolve(&impulses(vec![moving("a", 0.0)])).expect("a valid scene").contact, None);
 }
 
@@ -207,6 +210,26 @@ left out: gravity, drag, prescribed motion, compound bodies, relocation";
         (s.restitution, s.friction, s.substeps, s.sleeping) = (0.5, 0.5, Some(1), true);
     };
     assert_eq!(told(everything), full);
+}
+
+/// What the plan says and what the world does are one: with vertices alone impulses act pair by pair.
+#[test]
+fn contacts_do_not_last_where_only_vertices_are_looked_for() {
+    let mut scene = impulses(vec![moving("a", 0.0), moving("b", 0.9)]);
+    scene.settings.detection = Some(Detection::Vertices);
+    let plan = Plan::resolve(&scene).expect("a valid scene").to_string();
+    let pair_by_pair = "detect: vertex in rectangle (§2.3)
+exchange: impulse, restitution and friction of each pair
+left out: gravity, drag, prescribed motion, compound bodies, relocation, lasting contact";
+    assert!(plan.ends_with(pair_by_pair), "{plan}");
+    let mut world = World::new(&scene).expect("a valid scene");
+    let said: Vec<String> = note::review(&scene, &world).iter().map(ToString::to_string).collect();
+    assert!(
+        said.len() == 1 && said[0].ends_with("the impulse exchange does not move bodies, so it stays until they part"),
+        "{said:?}"
+    );
+    world.begin();
+    assert_eq!(world.listed().len(), 1, "overlaps are listed before any is treated");
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! What is refused at the door, by name and value; and what stops a run.
 
-use choque_engine::scene::{Body, ExchangeRule, Kind, MotionRule, Part, Patrol, Scene, Settings, Swing};
+use choque_engine::scene::{Body, Detection, ExchangeRule, Kind, MotionRule, Part, Patrol, Scene, Settings, Swing};
 use choque_engine::{CommandError, Extent, Rect, Vec2, World, note};
 
 use crate::{after, body, scene};
@@ -108,19 +108,23 @@ fn a_body_that_leaves_the_finite_numbers_stops_the_run_by_name() {
 
 #[test]
 fn notes_tell_of_settings_that_do_nothing() {
-    let told = |exchange, motion| {
-        let settings = Settings { substeps: Some(8), sleeping: true, exchange, motion, ..Settings::default() };
+    let told = |exchange, motion, detection| {
+        let settings =
+            Settings { substeps: Some(8), sleeping: true, exchange, motion, detection, ..Settings::default() };
         let scene = Scene { settings, ..scene(vec![body("a", Kind::Mobile, 1.0, 1.0)]) };
         note::review(&scene, &after(&scene, 0)).iter().map(ToString::to_string).collect::<Vec<_>>()
     };
-    assert!(told(ExchangeRule::Impulse, MotionRule::Stepped).is_empty());
+    assert!(told(ExchangeRule::Impulse, MotionRule::Stepped, None).is_empty());
+    let idle = "does nothing here: it is for detection(\"complete\")";
+    let with_vertices = told(ExchangeRule::Impulse, MotionRule::Stepped, Some(Detection::Vertices));
+    assert_eq!(with_vertices, [format!("substeps(8) {idle}"), format!("sleeping(true) {idle}")]);
     for (exchange, motion) in [
         (ExchangeRule::Document, MotionRule::Stepped),
         (ExchangeRule::Document, MotionRule::Continuous),
         (ExchangeRule::Impulse, MotionRule::Continuous),
     ] {
         let idle = "does nothing here: it is for exchange(\"impulse\") with motion(\"stepped\")";
-        assert_eq!(told(exchange, motion), [format!("substeps(8) {idle}"), format!("sleeping(true) {idle}")]);
+        assert_eq!(told(exchange, motion, None), [format!("substeps(8) {idle}"), format!("sleeping(true) {idle}")]);
     }
 }
 

@@ -49,7 +49,7 @@ class Buffer {
     this.#chunks = [all.subarray(5 + length)];
     this.#length -= 5 + length;
     if (all[0] === "J".charCodeAt(0)) return { text: JSON.parse(new TextDecoder().decode(content)) };
-    return { film: content.buffer };
+    return { film: content };
   }
 
   /** The first chunk, made at least that long. */

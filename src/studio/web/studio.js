@@ -22,6 +22,7 @@ const desk = {
   film: null,
   kept: null, // the run called A: { id, film, outcome, label }
   stamp: null,
+  ghostsLaid: "null", // over the film, as JSON
   ghostsChosen: null, // by hand; otherwise they show when there is something to see
 };
 
@@ -55,7 +56,7 @@ async function start() {
     for await (const piece of run({ scenario: id, set: sliders.set }, current.controller.signal)) {
       if (desk.run !== current) return;
       if (piece.text) hear(piece.text, current);
-      else await show(piece.film, current);
+      else show(piece.film, current);
       if (desk.run !== current) return;
       if (!current.waits && desk.again) return start();
     }
@@ -96,9 +97,8 @@ function hear(event, current) {
   }
 }
 
-async function show(bytes, current) {
-  const film = await choque.unpack(bytes);
-  if (desk.run !== current) return;
+function show(bytes, current) {
+  const film = choque.read(bytes);
   const waited = () => performance.now() - current.since;
   const reaches = film.times.at(-1) >= Math.min(current.end, desk.scene.steps * desk.scene.time_step * (1 - 1e-9));
   // Someone who looks at the end should not see the picture jump there and back.
@@ -128,7 +128,7 @@ async function show(bytes, current) {
 function forgetView() {
   player.pause();
   if (player.film) player.choose(null);
-  player.overlay(null, { kind: "ghost" });
+  layGhosts(null);
   if (desk.kept?.id !== desk.open) forget();
 }
 
@@ -167,16 +167,21 @@ function showOutcome(difference) {
   const ghosts = desk.scene.expected;
   box.disabled = !ghosts;
   box.checked = Boolean(ghosts) && (desk.ghostsChosen ?? differs);
-  layGhosts();
+  layGhosts(wantedGhosts());
   showDifference(difference, desk.scene.unreadable);
   showExpectations(desk.outcome.expectations);
   showNumbers(desk.outcome, desk.kept?.outcome);
   showButtons();
 }
 
-function layGhosts() {
-  const wanted = byId("ghosts").querySelector("input").checked;
-  player.overlay(wanted ? { bodies: desk.scene.expected.bodies } : null, { kind: "ghost", label: "the end in the snapshot" });
+const wantedGhosts = () => (byId("ghosts").querySelector("input").checked ? desk.scene.expected.bodies : null);
+
+/** Lays them over the film, unless they lie there. */
+function layGhosts(bodies) {
+  const told = JSON.stringify(bodies);
+  if (told === desk.ghostsLaid) return;
+  desk.ghostsLaid = told;
+  player.overlay(bodies && { bodies }, { kind: "ghost", label: "the end in the snapshot" });
 }
 
 /** A text that the run was made from; one with an error is opened there. */
@@ -277,7 +282,7 @@ function forget() {
 
 byId("ghosts").querySelector("input").addEventListener("change", (event) => {
   desk.ghostsChosen = event.target.checked;
-  layGhosts();
+  layGhosts(wantedGhosts());
 });
 
 /* Scenarios. */
