@@ -11,8 +11,8 @@ use choque_engine::scene::{Body, BroadPhaseChoice, Part};
 use choque_engine::{BodyId, Extent, Rect, Scene, World};
 use choque_scripting::{Options, Overrides, Scenario, Step};
 
-/// Bodies times iterations of one run: a second or so for all scenes together.
-const BUDGET: u64 = 15_000;
+/// Bodies times iterations of one run; fewer where nothing is optimised for speed, so that all tests stay a matter of minutes.
+const BUDGET: u64 = if cfg!(debug_assertions) { 4_000 } else { 15_000 };
 /// Fewer iterations than this would not let a large scene collide.
 const FEWEST: u64 = 30;
 
