@@ -3,13 +3,13 @@
 use std::path::Path;
 
 use choque::harness::cases;
+use choque_engine::World;
 use choque_engine::ledger::{Amounts, Cause};
 use choque_engine::scene::{Detection, ExchangeRule, Kind, MotionRule};
-use choque_engine::{Scene, World};
 use choque_scripting::{Options, Overrides, Scenario, Step};
 use serde_json::Value;
 
-use crate::support::{choque, folder, stderr};
+use crate::support::{choque, folder, iterations_within, stderr};
 
 /// Books that close to this share are closed: ten times better than promised. Long free flight rounds places, and that is not booked.
 const CLOSED: f64 = 1e-13;
@@ -18,11 +18,6 @@ const CLOSED: f64 = 1e-13;
 /// that all tests stay a matter of minutes.
 const BUDGET: u64 = 3_000;
 const OWN: u64 = if cfg!(debug_assertions) { 10_000 } else { u64::MAX };
-
-/// So many bodies times iterations of a scene, and as many as let a large one collide.
-fn steps(scene: &Scene, budget: u64) -> u64 {
-    scene.settings.steps.min((budget / scene.bodies.len().max(1) as u64).max(30))
-}
 
 /// How far the books of a world are from closing, of what was booked and of what its bodies have each.
 fn gap(world: &World) -> f64 {
@@ -69,12 +64,12 @@ fn the_books_of_every_scenario_close() {
     let (mut closed, mut collisions) = (0, 0);
     for case in &cases {
         let whole = Scenario::load(&case.script, &Options::default()).expect("it loads");
-        let own = Overrides { steps: Some(steps(whole.scene(), OWN)), ..Overrides::default() };
+        let own = Overrides { steps: Some(iterations_within(OWN, whole.scene())), ..Overrides::default() };
         let scenario =
             Scenario::load(&case.script, &Options { overrides: own, ..Options::default() }).expect("it loads");
         let (gap, _) = audited(&scenario).expect("it runs");
         assert!(gap <= CLOSED, "{}: {gap:e}", case.name());
-        let steps = Some(steps(whole.scene(), BUDGET));
+        let steps = Some(iterations_within(BUDGET, whole.scene()));
         for exchange in [ExchangeRule::Document, ExchangeRule::Impulse] {
             for motion in [MotionRule::Stepped, MotionRule::Continuous] {
                 if exchange == ExchangeRule::Impulse && motion == MotionRule::Continuous {

@@ -11,13 +11,13 @@ use choque_engine::scene::{Body, BroadPhaseChoice, Part};
 use choque_engine::{BodyId, Extent, Rect, Scene, World};
 use choque_scripting::{Options, Overrides, Scenario, Step};
 
+use crate::support::iterations_within;
+
 /// Bodies times iterations of one run; fewer where nothing is optimised for speed, so that all tests stay a matter of minutes.
 const BUDGET: u64 = if cfg!(debug_assertions) { 4_000 } else { 15_000 };
-/// Fewer iterations than this would not let a large scene collide.
-const FEWEST: u64 = 30;
 
 fn iterations(scene: &Scene) -> u64 {
-    scene.settings.steps.min(FEWEST.max(BUDGET / scene.bodies.len().max(1) as u64))
+    iterations_within(BUDGET, scene)
 }
 
 /// Checks every scenario; fails with all that do not hold.

@@ -44,3 +44,11 @@ pub(crate) fn stdout(output: &Output) -> String {
 pub(crate) fn stderr(output: &Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned()
 }
+
+/// Fewer iterations than this would not let a large scene collide.
+const FEWEST: u64 = 30;
+
+/// A scene's iterations, but no more than come to so many bodies times iterations.
+pub(crate) fn iterations_within(budget: u64, scene: &choque_engine::Scene) -> u64 {
+    scene.settings.steps.min(FEWEST.max(budget / scene.bodies.len().max(1) as u64))
+}

@@ -202,6 +202,15 @@ impl Blocks {
 }
 
 impl Block {
+    /// Its pushes at both points and friction.
+    pub(super) fn pushes(&self) -> [Eight; 3] {
+        [self.push[0], self.push[1], self.grip]
+    }
+
+    pub(super) fn set_pushes(&mut self, pushes: [Eight; 3]) {
+        [self.push[0], self.push[1], self.grip] = pushes;
+    }
+
     /// A block whose lanes all belong to nobody.
     fn idle() -> Block {
         let (zero, one) = (Eight::ZERO, Eight::all(1.0));

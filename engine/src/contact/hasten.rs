@@ -6,8 +6,10 @@
 
 use super::Contacts;
 use super::blocks::Block;
-use super::rest::{Effort, Settled};
-use super::rows::{INVERSE_MASS, INVERSE_MOMENT, Row, SPIN, VX, VZ};
+use super::kept::Kept;
+use super::rest::{Effort, Momentum, Settled};
+use super::rows::{INVERSE_MASS, INVERSE_MOMENT, Row};
+use crate::bodies::Motion;
 use crate::lanes::Eight;
 use crate::world::World;
 
@@ -15,25 +17,12 @@ use crate::world::World;
 const SPELL: u32 = 25;
 const GAINS: f64 = 0.95;
 
-/// Pushes and friction of a block, at both points and along the face.
-type Pushes = [Eight; 3];
-
-/// The motion of a body: vx, vz, spin.
-type Way = [f64; 3];
-
-/// Pushes and motions as they were, kept so that a step allocates nothing.
-#[derive(Clone, Debug, Default)]
-struct Kept {
-    pushes: Vec<Pushes>,
-    ways: Vec<Way>,
-}
-
 /// Where the sweeps began, the end of the last pair, and where the present one began: beyond it.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Hasten {
     first: Kept,
     last: Kept,
-    beyond: Vec<Way>,
+    beyond: Vec<Motion>,
 }
 
 /// What a pair of sweeps changed.
@@ -50,15 +39,14 @@ struct Change {
 impl Contacts {
     /// Improves all touches until they are settled, or nothing much is gained; to the end of the effort in any case if it is patient.
     pub(super) fn hasten(&mut self, world: &mut World, effort: Effort, patient: bool) -> Settled {
-        let (mut momentum, mut rounds, mut enough) = (1.0_f64, 0, false);
+        let (mut momentum, mut rounds, mut enough) = (Momentum::default(), 0, false);
         let (mut first, mut before, mut spell) = (f64::INFINITY, f64::INFINITY, f64::INFINITY);
         let mut left = 0.0;
         self.hasten.first.keep(&self.rows.rows, &self.blocks.blocks);
         self.hasten.last.keep(&self.rows.rows, &self.blocks.blocks);
         while rounds < effort.most {
             rounds += 1;
-            let next = 0.5 * (1.0 + (1.0 + 4.0 * momentum * momentum).sqrt());
-            self.hasten.go_beyond(&mut self.rows.rows, &mut self.blocks.blocks, (momentum - 1.0) / next);
+            self.hasten.go_beyond(&mut self.rows.rows, &mut self.blocks.blocks, momentum.share());
             self.sweep_touches(world, 2);
             let change = self.hasten.change(&self.rows.rows);
             left = change.most.sqrt();
@@ -73,7 +61,7 @@ impl Contacts {
             if rounds % SPELL == 0 {
                 spell = change.energy;
             }
-            momentum = if change.onward < 0.0 || change.energy > before { 1.0 } else { next };
+            momentum.go_on(change.onward < 0.0 || change.energy > before);
             before = change.energy;
         }
         if !enough && before > first {
@@ -87,17 +75,18 @@ impl Hasten {
     /// On beyond the last two ends of pairs, by a share of the way between them.
     fn go_beyond(&mut self, rows: &mut [Row], blocks: &mut [Block], share: f64) {
         self.beyond.clear();
-        for (row, last) in rows.iter_mut().zip(&mut self.last.ways) {
-            let now = way(row);
-            let beyond = core::array::from_fn(|k| now[k] + share * (now[k] - last[k]));
+        for (row, last) in rows.iter_mut().zip(&mut self.last.motions) {
+            let now = row.motion();
+            let beyond =
+                Motion { v: now.v + (now.v - last.v) * share, omega: now.omega + share * (now.omega - last.omega) };
             *last = now;
-            set_way(row, beyond);
+            row.set_motion(beyond);
             self.beyond.push(beyond);
         }
         let share = Eight::all(share);
         for (block, last) in blocks.iter_mut().zip(&mut self.last.pushes) {
-            let now = pushes(block);
-            set_pushes(block, core::array::from_fn(|k| now[k] + share * (now[k] - last[k])));
+            let now = block.pushes();
+            block.set_pushes(core::array::from_fn(|k| now[k] + share * (now[k] - last[k])));
             *last = now;
         }
     }
@@ -105,49 +94,18 @@ impl Hasten {
     /// What the pair has changed.
     fn change(&self, rows: &[Row]) -> Change {
         let mut change = Change { energy: 0.0, most: 0.0, onward: 0.0 };
-        for ((row, last), beyond) in rows.iter().zip(&self.last.ways).zip(&self.beyond) {
+        for ((row, last), beyond) in rows.iter().zip(&self.last.motions).zip(&self.beyond) {
             if row.0[INVERSE_MASS] == 0.0 {
                 continue;
             }
             let (mass, moment) = (1.0 / row.0[INVERSE_MASS], 1.0 / row.0[INVERSE_MOMENT]);
-            let now = way(row);
-            let [dx, dz, turn]: Way = core::array::from_fn(|k| now[k] - beyond[k]);
-            let energy = mass * (dx * dx + dz * dz) + moment * turn * turn;
+            let now = row.motion();
+            let (dv, turn) = (now.v - beyond.v, now.omega - beyond.omega);
+            let energy = mass * dv.norm_squared() + moment * turn * turn;
             change.energy += energy;
             change.most = change.most.max(energy * row.0[INVERSE_MASS]);
-            change.onward +=
-                mass * (dx * (now[0] - last[0]) + dz * (now[1] - last[1])) + moment * turn * (now[2] - last[2]);
+            change.onward += mass * dv.dot(&(now.v - last.v)) + moment * turn * (now.omega - last.omega);
         }
         change
     }
-}
-
-impl Kept {
-    fn keep(&mut self, rows: &[Row], blocks: &[Block]) {
-        self.ways.clear();
-        self.ways.extend(rows.iter().map(way));
-        self.pushes.clear();
-        self.pushes.extend(blocks.iter().map(pushes));
-    }
-
-    fn give_back(&self, rows: &mut [Row], blocks: &mut [Block]) {
-        rows.iter_mut().zip(&self.ways).for_each(|(row, kept)| set_way(row, *kept));
-        blocks.iter_mut().zip(&self.pushes).for_each(|(block, kept)| set_pushes(block, *kept));
-    }
-}
-
-fn way(row: &Row) -> Way {
-    [row.0[VX], row.0[VZ], row.0[SPIN]]
-}
-
-fn set_way(row: &mut Row, way: Way) {
-    [row.0[VX], row.0[VZ], row.0[SPIN]] = way;
-}
-
-fn pushes(block: &Block) -> Pushes {
-    [block.push[0], block.push[1], block.grip]
-}
-
-fn set_pushes(block: &mut Block, pushes: Pushes) {
-    [block.push[0], block.push[1], block.grip] = pushes;
 }

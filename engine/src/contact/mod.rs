@@ -20,6 +20,7 @@ mod booked;
 mod find;
 mod flying;
 mod hasten;
+mod kept;
 mod loads;
 mod look;
 mod meeting;
@@ -52,8 +53,8 @@ use crate::world::World;
 use blocks::Blocks;
 use flying::Fliers;
 use hasten::Hasten;
+use kept::Kept;
 use pairs::Pairs;
-use part::Aside;
 use pulls::Pulls;
 use rest::Rest;
 use rows::Rows;
@@ -97,7 +98,8 @@ pub(crate) struct Contacts {
     fliers: Fliers,
     rest: Rest,
     hasten: Hasten,
-    aside: Aside,
+    /// What is laid aside while bodies are moved apart.
+    aside: Kept,
     /// Rounds to be spent upon what stands still: fewer where they were in vain.
     patience: u32,
     /// Touches of bodies that touch no other: those left to impacts, and those that are not.
@@ -141,7 +143,7 @@ impl Contacts {
             fliers: Fliers::default(),
             rest: Rest::default(),
             hasten: Hasten::default(),
-            aside: Aside::default(),
+            aside: Kept::default(),
             patience: solve::PATIENCE,
             pairs: Pairs::default(),
             lonely: Vec::new(),

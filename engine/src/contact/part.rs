@@ -23,13 +23,6 @@ const ROUNDS: u64 = 2_000_000_000;
 /// Displacements below this share of the deepest are not worth another round.
 const GOOD: f64 = 1e-3;
 
-/// What is laid aside while bodies are moved apart: what touches push, and how bodies move. Kept, so that a step allocates nothing.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Aside {
-    pushes: Vec<([Eight; 2], Eight)>,
-    motions: Vec<Motion>,
-}
-
 impl Contacts {
     /// Moves bodies apart that are deeper in each other than they may be by now; whether any were.
     pub(super) fn part_overlaps(&mut self, world: &mut World) -> bool {
@@ -48,11 +41,7 @@ impl Contacts {
     }
 
     fn part_to_the_end(&mut self, world: &mut World, excess: f64) {
-        let Contacts { aside, blocks, rows, .. } = &mut *self;
-        aside.pushes.clear();
-        aside.pushes.extend(blocks.blocks.iter().map(|block| (block.push, block.grip)));
-        aside.motions.clear();
-        aside.motions.extend(rows.rows.iter().map(Row::motion));
+        self.aside.keep(&self.rows.rows, &self.blocks.blocks);
         self.blocks.forget_pushes();
         self.rows.rows.iter_mut().for_each(|row| row.set_motion(Motion::default()));
         let (rows, blocks) = (&self.rows.rows[..], &mut self.blocks.blocks[..]);
@@ -61,15 +50,12 @@ impl Contacts {
         let most = (ROUNDS / (self.blocks.count as u64).pow(3)).min(u64::from(PATIENCE)) as u32;
         self.settle_for(world, Effort { enough: (GOOD * excess).max(self.band), most });
         let Contacts { aside, blocks, rows, .. } = self;
-        for (row, motion) in rows.rows.iter_mut().zip(&aside.motions) {
+        for row in &mut rows.rows {
             for (place, way) in [(X, VX), (Z, VZ), (TURN, SPIN)] {
                 row.0[place] += row.0[way];
             }
-            row.set_motion(*motion);
         }
-        for (block, (push, grip)) in blocks.blocks.iter_mut().zip(&aside.pushes) {
-            (block.push, block.grip) = (*push, *grip);
-        }
+        aside.give_back(&mut rows.rows, &mut blocks.blocks);
     }
 }
 

@@ -44,6 +44,32 @@ pub(super) struct Settled {
     pub(super) enough: bool,
 }
 
+/// How far beyond the last two rounds the next one starts (Nesterov 1983), from the beginning again where that led astray
+/// (O'Donoghue and Candès 2015).
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Momentum(f64);
+
+impl Default for Momentum {
+    fn default() -> Self {
+        Momentum(1.0)
+    }
+}
+
+impl Momentum {
+    /// The share of the way between the last two.
+    pub(super) fn share(self) -> f64 {
+        (self.0 - 1.0) / self.next()
+    }
+
+    pub(super) fn go_on(&mut self, astray: bool) {
+        self.0 = if astray { 1.0 } else { self.next() };
+    }
+
+    fn next(self) -> f64 {
+        0.5 * (1.0 + (1.0 + 4.0 * self.0 * self.0).sqrt())
+    }
+}
+
 /// The pushes and friction of a block, and what the points ask.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Guess {
@@ -72,18 +98,16 @@ impl Rest {
     /// Improves all touches until they are settled; gives how many rounds it took.
     pub(super) fn settle(&mut self, rows: &mut Rows, blocks: &mut [Block], width: Width, effort: Effort) -> Settled {
         self.begin(rows, blocks);
-        let (mut momentum, mut before) = (1.0_f64, f64::INFINITY);
+        let (mut momentum, mut before) = (Momentum::default(), f64::INFINITY);
         let (mut rounds, mut left) = (0, 0.0);
         while rounds < effort.most {
             rounds += 1;
-            let next = 0.5 * (1.0 + (1.0 + 4.0 * momentum * momentum).sqrt());
-            let share = (momentum - 1.0) / next;
+            let share = momentum.share();
             self.extrapolate(share);
             let Rest { guesses, now, beyond, .. } = self;
             let (change, back) = width.run(Round { guesses, blocks, from: beyond, to: now, share: Eight::all(share) });
-            let astray = back > 0.0 || change > before;
+            momentum.go_on(back > 0.0 || change > before);
             (before, left) = (change, change);
-            momentum = if astray { 1.0 } else { next };
             if change <= effort.enough {
                 break;
             }
@@ -95,7 +119,7 @@ impl Rest {
     fn begin(&mut self, rows: &Rows, blocks: &[Block]) {
         self.guesses.clear();
         for block in blocks {
-            let x = [block.push[0], block.push[1], block.grip];
+            let x = block.pushes();
             self.guesses.push(Guess { x, last: x });
         }
         self.now.clear();
@@ -125,7 +149,7 @@ impl Rest {
 
     fn end(&mut self, rows: &mut Rows, blocks: &mut [Block]) {
         for (block, guess) in blocks.iter_mut().zip(&self.guesses) {
-            [block.push[0], block.push[1], block.grip] = guess.x;
+            block.set_pushes(guess.x);
         }
         for (row, now) in rows.rows.iter_mut().zip(&self.now) {
             for q in [VX, VZ, SPIN] {

@@ -90,7 +90,7 @@ impl Contacts {
     fn push_on(&mut self, world: &mut World, (h, scale): (f64, f64), budget: &Budget) {
         self.sweep_touches(world, (budget.swept / self.blocks.count).clamp(LEAST_SWEEPS, MOST_SWEEPS));
         self.spread(world, h);
-        let most = self.few(budget);
+        let most = self.worthwhile(budget);
         if most > 0 {
             let effort = Effort { enough: GOOD * scale, most };
             if self.are_few() {
@@ -137,7 +137,7 @@ impl Contacts {
             }
             let mut more = self.settle_for(world, Effort { enough: settled, most });
             if !more.enough && self.are_few() {
-                more = self.hasten(world, Effort { enough: settled, most: self.few(&IN_QUIET) }, true);
+                more = self.hasten(world, Effort { enough: settled, most: self.worthwhile(&IN_QUIET) }, true);
             }
             self.patience =
                 if more.enough { (2 * self.patience).min(PATIENCE) } else { (self.patience / 2).max(FIRST) };
@@ -150,7 +150,7 @@ impl Contacts {
     }
 
     /// How many rounds are always worth it.
-    fn few(&self, budget: &Budget) -> u32 {
+    fn worthwhile(&self, budget: &Budget) -> u32 {
         let count = self.blocks.count as u64;
         (budget.improved / count + THOROUGH / count.pow(3)).min(u64::from(PATIENCE)) as u32
     }
