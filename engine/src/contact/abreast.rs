@@ -1,17 +1,19 @@
 //! Eight pairs of rectangles looked at side by side: the touch of each, or that there is none, to the same bits as
 //! [`Touch::find`] one after the other.
 //!
-//! What is rare is left to that: pairs deep in each other, pairs at a seam, pairs whose best face is passed by.
+//! What is rare is left to that: pairs deep in each other that did not touch a step ago, pairs at a seam, pairs whose best face is
+//! passed by.
 
 use super::find::Acting;
 use super::swept::ROOM;
-use super::touch::Touch;
+use super::touch::{FAR, Touch};
 use crate::bodies::Bodies;
 use crate::broad_phase::met::Owner;
 use crate::detect::Face;
 use crate::detect::complete::PREFERENCE;
 use crate::detect::manifold::Placed;
 use crate::detect::near::{DEEP, LOYALTY};
+use crate::detect::sides::ALONG;
 use crate::lanes::{Eight, LANES};
 use crate::width::transpose;
 
@@ -175,13 +177,15 @@ pub(super) struct Loyal {
     of_first: Flag,
     across_x: Flag,
     positive: Flag,
+    /// From the first rectangle to the second.
+    normal: Pair,
 }
 
 impl Loyal {
     #[inline(always)]
     pub(super) fn of(last: &[Option<&Touch>; LANES]) -> Loyal {
         let zero = Eight::ZERO;
-        let mut loyal = Loyal { touched: zero, of_first: zero, across_x: zero, positive: zero };
+        let mut loyal = Loyal { touched: zero, of_first: zero, across_x: zero, positive: zero, normal: [zero; 2] };
         let flag = |yes: bool| if yes { 1.0 } else { -1.0 };
         for k in 0..LANES {
             let Some(last) = last[k] else { continue };
@@ -189,6 +193,8 @@ impl Loyal {
             loyal.of_first.0[k] = flag(last.of_first);
             loyal.across_x.0[k] = flag(matches!(last.face, Face::XMax | Face::XMin));
             loyal.positive.0[k] = flag(last.face.is_positive());
+            let normal = if last.of_first { last.n } else { -last.n };
+            (loyal.normal[0].0[k], loyal.normal[1].0[k]) = (normal.x, normal.y);
         }
         loyal
     }
@@ -271,21 +277,44 @@ impl Abreast {
         one[0].min(one[1]).min(two[0].min(two[1]))
     }
 
-    /// The way of least overlap or widest gap, the first of equals, with something in favour of the one taken before.
+    /// Which of the four ways lead where pairs came from, at least in part, and which lead against that and are to be turned round.
     #[inline(always)]
-    pub(super) fn best(&self, loyal: &Loyal) -> Best {
+    fn came(&self, loyal: &Loyal) -> [(Flag, Flag); 4] {
+        core::array::from_fn(|k| {
+            let ([cos, sin], seen) = if k < 2 { (self.one.axis, &self.two_seen) } else { (self.two.axis, &self.one_seen) };
+            let axis = if k % 2 == 0 { [cos, sin] } else { [-sin, cos] };
+            let along = axis[0] * loyal.normal[0] + axis[1] * loyal.normal[1];
+            let positive = at_least(seen.d[k % 2], Eight::ZERO);
+            let share = if k < 2 { positive * along } else { -(positive * along) };
+            (less(Eight::all(ALONG), share.abs()), less(share, Eight::ZERO))
+        })
+    }
+
+    /// The way of least overlap or widest gap, the first of equals, with something in favour of the one taken before. Pairs deep
+    /// in each other go apart the way they came, where any way leads there.
+    #[inline(always)]
+    pub(super) fn best(&self, loyal: &Loyal, deep: Flag) -> Best {
         let (one, two) = (self.one.half, self.two.half);
         let margin = Eight::all(PREFERENCE) * one[0].max(one[1]).min(two[0].max(two[1]));
         let favour = loyal.touched * (Eight::all(LOYALTY) * self.small());
         let (yes, no) = (Eight::all(1.0), Eight::all(-1.0));
+        let mut came = [(yes, no); 4];
+        if deep.min(loyal.touched).greatest() > 0.0 {
+            came = self.came(loyal);
+            let any = came.iter().fold(no, |any, (leads, _)| any.max(*leads));
+            let bound = deep.min(any).min(less(Eight::ZERO, loyal.touched));
+            came = came.map(|(leads, against)| (leads.max(-bound), against.min(bound)));
+        }
         let mut best: Option<Best> = None;
-        for k in 0..4 {
+        for (k, (leads, against)) in came.into_iter().enumerate() {
             let seen = if k < 2 { &self.two_seen } else { &self.one_seen };
             let (of_first, across_x) = (if k < 2 { yes } else { no }, if k % 2 == 0 { yes } else { no });
-            let positive = at_least(seen.d[k % 2], Eight::ZERO);
+            let nearer = at_least(seen.d[k % 2], Eight::ZERO);
+            let positive = against.pick(-nearer, nearer);
             let agrees = (loyal.of_first * of_first).min(loyal.across_x * across_x).min(loyal.positive * positive);
-            let depth = seen.depth[k % 2];
-            let favoured = depth - agrees.pick(favour, Eight::ZERO);
+            let through = seen.depth[k % 2] + Eight::all(2.0) * seen.d[k % 2].abs();
+            let depth = against.pick(through, seen.depth[k % 2]);
+            let favoured = leads.pick(depth - agrees.pick(favour, Eight::ZERO), Eight::all(FAR));
             let this = Best { favoured, depth, of_first, across_x, positive };
             best = Some(match best {
                 None => this,

@@ -159,11 +159,11 @@ impl<F: Fn(usize) -> Frame + Copy> Work for Look<'_, F> {
                 *last = before.get(next).filter(|touch| touch.rects == *key);
             }
             let deep = pairs.deep();
-            let points = Points::of(&pairs, pairs.best(&Loyal::of(&last)));
+            let points = Points::of(&pairs, pairs.best(&Loyal::of(&last), deep));
             for k in (0..keys.len()).filter(|k| may.0[*k] > 0.0) {
                 let (one, two) = (one[k].0, two[k].0);
                 let seam = bodies.seams.concern(one.index) || bodies.seams.concern(two.index);
-                match points.touches(k).filter(|_| deep.0[k] < 0.0 && !seam) {
+                match points.touches(k).filter(|_| (deep.0[k] < 0.0 || last[k].is_some()) && !seam) {
                     None => {
                         touches.extend(Touch::find(bodies, (one, two), pairs.margin.0[k], last[k], earlier));
                     }

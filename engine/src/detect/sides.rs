@@ -7,7 +7,7 @@
 use crate::area::Vec2;
 
 /// A normal at less than about 45° to the remembered one leads the same way \[cosine\].
-pub(super) const ALONG: f64 = 0.7;
+pub(crate) const ALONG: f64 = 0.7;
 
 /// Two rectangles, by their indices among all, and the normal from the first to the second across which they came.
 type Came = (u32, u32, Vec2);
