@@ -174,6 +174,8 @@ pub(super) struct Best {
 #[derive(Clone, Copy)]
 pub(super) struct Loyal {
     touched: Eight,
+    /// Those that do not bounce: what came to touch goes on touching, or does so again soon.
+    pub(super) stays: Flag,
     of_first: Flag,
     across_x: Flag,
     positive: Flag,
@@ -185,11 +187,12 @@ impl Loyal {
     #[inline(always)]
     pub(super) fn of(last: &[Option<&Touch>; LANES]) -> Loyal {
         let zero = Eight::ZERO;
-        let mut loyal = Loyal { touched: zero, of_first: zero, across_x: zero, positive: zero, normal: [zero; 2] };
+        let mut loyal = Loyal { touched: zero, stays: Eight::all(-1.0), of_first: zero, across_x: zero, positive: zero, normal: [zero; 2] };
         let flag = |yes: bool| if yes { 1.0 } else { -1.0 };
         for k in 0..LANES {
             let Some(last) = last[k] else { continue };
             loyal.touched.0[k] = 1.0;
+            loyal.stays.0[k] = flag(last.surface.restitution == 0.0);
             loyal.of_first.0[k] = flag(last.of_first);
             loyal.across_x.0[k] = flag(matches!(last.face, Face::XMax | Face::XMin));
             loyal.positive.0[k] = flag(last.face.is_positive());

@@ -146,11 +146,6 @@ impl<F: Fn(usize) -> Frame + Copy> Work for Look<'_, F> {
             if listed.greatest() < 0.0 {
                 continue;
             }
-            let may = listed.min(-pairs.stay_apart(dt));
-            apart.extend((0..keys.len()).filter(|k| listed.0[*k] > may.0[*k]).map(|k| keys[k]));
-            if may.greatest() < 0.0 {
-                continue;
-            }
             let mut last = [None; LANES];
             for (last, key) in last.iter_mut().zip(keys) {
                 while before.get(next).is_some_and(|touch| touch.rects < *key) {
@@ -158,8 +153,14 @@ impl<F: Fn(usize) -> Frame + Copy> Work for Look<'_, F> {
                 }
                 *last = before.get(next).filter(|touch| touch.rects == *key);
             }
+            let loyal = Loyal::of(&last);
+            let may = listed.min(loyal.stays.max(-pairs.stay_apart(dt)));
+            apart.extend((0..keys.len()).filter(|k| listed.0[*k] > may.0[*k]).map(|k| keys[k]));
+            if may.greatest() < 0.0 {
+                continue;
+            }
             let deep = pairs.deep();
-            let points = Points::of(&pairs, pairs.best(&Loyal::of(&last), deep));
+            let points = Points::of(&pairs, pairs.best(&loyal, deep));
             for k in (0..keys.len()).filter(|k| may.0[*k] > 0.0) {
                 let (one, two) = (one[k].0, two[k].0);
                 let seam = bodies.seams.concern(one.index) || bodies.seams.concern(two.index);
