@@ -1,11 +1,17 @@
 //! How wide the processor's registers are, found once; the same code compiled for each.
 //!
 //! The one module with `unsafe`: a function compiled for instructions that a processor may lack must not be called where
-//! it lacks them, and the compiler cannot know. [`Width::best`] asks the processor, and only it makes the wider widths.
+//! it lacks them, and the compiler cannot know. [`Width::best`] asks the processor, and only it makes the wider widths. Numbers
+//! in wide registers are of types that have no name outside of here: only what is run for a width is given them.
 //!
-//! Arithmetic is left to the compiler. Only where it does badly, with rows that become columns, the instructions are named.
+//! On x86-64 the instructions are named: left to itself, the compiler finds them again in short functions only.
 
-use crate::lanes::{self, Eight, LANES};
+#[cfg(target_arch = "x86_64")]
+mod eight;
+#[cfg(target_arch = "x86_64")]
+mod four;
+
+use crate::lanes::{Eight, Wide};
 
 /// What to compile for. All give the same bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -55,7 +61,7 @@ impl Width {
     #[inline]
     pub(crate) fn run<W: Work>(self, work: W) -> W::Out {
         match self {
-            Width::Plain => work.run::<1>(),
+            Width::Plain => work.run::<Eight>(),
             #[cfg(target_arch = "x86_64")]
             #[allow(unsafe_code)]
             // SAFETY: a `Proof` exists only where the processor was asked and has AVX2.
@@ -73,69 +79,80 @@ pub(crate) trait Work {
     /// What comes of it.
     type Out;
 
-    /// Does it; to be marked `#[inline(always)]`.
-    ///
-    /// `W` numbers fit into a register; it is only ever given as what the function is compiled for.
-    fn run<const W: usize>(self) -> Self::Out;
+    /// Does it with numbers in registers of that width; to be marked `#[inline(always)]`.
+    fn run<V: Wide>(self) -> Self::Out;
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
 fn four<T: Work>(work: T) -> T::Out {
-    work.run::<4>()
+    work.run::<four::Fours>()
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512dq,avx512vl")]
 fn eight<T: Work>(work: T) -> T::Out {
-    work.run::<8>()
-}
-
-/// Eight rows become eight columns, in work that is compiled for registers of `W` numbers.
-#[inline(always)]
-pub(crate) fn transpose<const W: usize>(rows: [Eight; LANES]) -> [Eight; LANES] {
-    #[cfg(target_arch = "x86_64")]
-    #[allow(unsafe_code)]
-    if W == 8 {
-        // SAFETY: only `eight` runs work with `W` = 8, and it is called only where the processor has AVX-512.
-        return unsafe { transpose_at_once(&rows) };
-    }
-    lanes::transpose(rows.map(|row| row.0))
-}
-
-/// By pairs, then by fours, then by halves.
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx512f,avx512dq,avx512vl")]
-#[inline]
-fn transpose_at_once(rows: &[Eight; LANES]) -> [Eight; LANES] {
-    use core::arch::x86_64::{__m512d, _mm512_shuffle_f64x2, _mm512_unpackhi_pd, _mm512_unpacklo_pd};
-    #[allow(unsafe_code)]
-    // SAFETY: both are sixty-four bytes, aligned alike, of eight numbers, of which any bits are valid.
-    let (load, store) = (
-        |row: &Eight| unsafe { core::mem::transmute::<Eight, __m512d>(*row) },
-        |column: __m512d| unsafe { core::mem::transmute::<__m512d, Eight>(column) },
-    );
-    let row = |k: usize| load(&rows[k]);
-    let mut columns = [Eight::ZERO; LANES];
-    for odd in 0..2 {
-        let pair = |k: usize| {
-            let (one, two) = (row(2 * k), row(2 * k + 1));
-            if odd == 0 { _mm512_unpacklo_pd(one, two) } else { _mm512_unpackhi_pd(one, two) }
-        };
-        let (ab, cd, ef, gh) = (pair(0), pair(1), pair(2), pair(3));
-        let (low_left, low_right) = (_mm512_shuffle_f64x2(ab, cd, 0x44), _mm512_shuffle_f64x2(ef, gh, 0x44));
-        let (high_left, high_right) = (_mm512_shuffle_f64x2(ab, cd, 0xEE), _mm512_shuffle_f64x2(ef, gh, 0xEE));
-        columns[odd] = store(_mm512_shuffle_f64x2(low_left, low_right, 0x88));
-        columns[2 + odd] = store(_mm512_shuffle_f64x2(low_left, low_right, 0xDD));
-        columns[4 + odd] = store(_mm512_shuffle_f64x2(high_left, high_right, 0x88));
-        columns[6 + odd] = store(_mm512_shuffle_f64x2(high_left, high_right, 0xDD));
-    }
-    columns
+    work.run::<eight::Eights>()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lanes::LANES;
+
+    /// Numbers of all kinds.
+    fn numbers(seed: usize) -> Eight {
+        const KINDS: [f64; 11] =
+            [0.0, -0.0, 1.0, -1.0, 3.7, -2.5e-9, 1e300, -1e300, f64::INFINITY, f64::NEG_INFINITY, f64::NAN];
+        Eight(core::array::from_fn(|k| KINDS[(seed + k * (1 + seed / 11)) % KINDS.len()]))
+    }
+
+    /// Everything that can be done with two lots of numbers, and whether any is positive.
+    struct Done(Eight, Eight);
+
+    impl Work for Done {
+        type Out = (Vec<Eight>, [bool; 2]);
+
+        #[inline(always)]
+        fn run<V: Wide>(self) -> Self::Out {
+            let (a, b) = (V::of(&self.0.0), V::of(&self.1.0));
+            let all = [
+                a + b,
+                a - b,
+                a * b,
+                a / b,
+                -a,
+                a.max(b),
+                a.min(b),
+                a.abs(),
+                a.root(),
+                a.pick(b, V::all(7.0)),
+                a.less(b),
+                a.at_least(b),
+                V::zero(),
+                b.inverse(),
+            ];
+            (all.map(V::eight).to_vec(), [a.any(), b.any()])
+        }
+    }
+
+    #[test]
+    fn every_width_does_the_same_to_the_bit() {
+        let bits = |numbers: &[Eight]| -> Vec<[u64; LANES]> {
+            let canonical = |x: f64| if x.is_nan() { f64::NAN.to_bits() } else { x.to_bits() };
+            numbers.iter().map(|eight| eight.0.map(canonical)).collect()
+        };
+        for seed in 0..121 {
+            for other in 0..11 {
+                let (a, b) = (numbers(seed), numbers(other * 13 + seed / 3));
+                let (plain, any) = Width::Plain.run(Done(a, b));
+                for width in Width::available() {
+                    let (done, any_too) = width.run(Done(a, b));
+                    assert_eq!((bits(&done), any_too), (bits(&plain), any), "{width:?}: {a:?}, {b:?}");
+                }
+            }
+        }
+    }
 
     /// Rows that become columns, at some width.
     struct Turned([Eight; LANES]);
@@ -144,8 +161,8 @@ mod tests {
         type Out = [Eight; LANES];
 
         #[inline(always)]
-        fn run<const W: usize>(self) -> [Eight; LANES] {
-            transpose::<W>(self.0)
+        fn run<V: Wide>(self) -> [Eight; LANES] {
+            V::transpose(self.0.map(|row| V::of(&row.0))).map(V::eight)
         }
     }
 
@@ -154,9 +171,11 @@ mod tests {
         let rows: [Eight; LANES] = core::array::from_fn(|i| Eight(core::array::from_fn(|j| (10 * i + j) as f64)));
         for width in Width::available() {
             let columns = width.run(Turned(rows));
-            let back = Width::Plain.run(Turned(columns));
-            assert_eq!(back, rows, "{width:?}");
-            assert_eq!(columns[3].0[5], rows[5].0[3], "{width:?}");
+            for (i, row) in rows.iter().enumerate() {
+                for (j, column) in columns.iter().enumerate() {
+                    assert_eq!(column.0[i], row.0[j], "{width:?}");
+                }
+            }
         }
     }
 }

@@ -110,7 +110,7 @@ impl Contacts {
             return None;
         }
         let rows = &self.rows.rows;
-        let arms = Arms::of(block, &gather::<1>(rows, &block.row_a), &gather::<1>(rows, &block.row_b));
+        let arms = Arms::of(block, &gather::<Eight>(rows, &block.row_a), &gather::<Eight>(rows, &block.row_b));
         let twists = |lever: [Eight; 2], along: Eight| {
             let [first, second] = lever.map(of);
             (first * push[0] + second * push[1], of(along) * grip)

@@ -12,7 +12,7 @@ use crate::bodies::{Bodies, Motion};
 use crate::broad_phase::met::Owner;
 use crate::flight::Pull;
 use crate::frame::Frame;
-use crate::lanes::{Eight, LANES};
+use crate::lanes::{Eight, LANES, Wide};
 use crate::threads::{PER_THREAD, Threads};
 use crate::width::Work;
 use crate::world::World;
@@ -132,7 +132,7 @@ impl<F: Fn(usize) -> Frame + Copy> Work for Look<'_, F> {
     type Out = ();
 
     #[inline(always)]
-    fn run<const W: usize>(self) {
+    fn run<V: Wide>(self) {
         let Look { bodies, acting, search, near, before, touches, apart, dt, earlier } = self;
         let mut next = 0;
         for keys in near.chunks(LANES) {
@@ -141,9 +141,11 @@ impl<F: Fn(usize) -> Frame + Copy> Work for Look<'_, F> {
             for (k, key) in keys.iter().enumerate().skip(1) {
                 (one[k], two[k]) = (search.placed(bodies, key.0), search.placed(bodies, key.1));
             }
-            let pairs = Abreast::new(Side::of::<W>(bodies, acting, &one), Side::of::<W>(bodies, acting, &two), dt);
+            let sides = [Side::<V>::of(bodies, acting, &one), Side::of(bodies, acting, &two)];
+            let [first, second] = sides;
+            let pairs = Abreast::new(first, second, dt);
             let listed = pairs.may();
-            if listed.greatest() < 0.0 {
+            if !listed.any() {
                 continue;
             }
             let mut last = [None; LANES];
@@ -153,20 +155,25 @@ impl<F: Fn(usize) -> Frame + Copy> Work for Look<'_, F> {
                 }
                 *last = before.get(next).filter(|touch| touch.rects == *key);
             }
-            let loyal = Loyal::of(&last);
+            let loyal = Loyal::<V>::of(&last);
             let may = listed.min(loyal.stays.max(-pairs.stay_apart(dt)));
-            apart.extend((0..keys.len()).filter(|k| listed.0[*k] > may.0[*k]).map(|k| keys[k]));
-            if may.greatest() < 0.0 {
+            let left = listed.min(-may);
+            if left.any() {
+                let left = left.eight();
+                apart.extend((0..keys.len()).filter(|k| left.0[*k] > 0.0).map(|k| keys[k]));
+            }
+            if !may.any() {
                 continue;
             }
             let deep = pairs.deep();
             let points = Points::of(&pairs, pairs.best(&loyal, deep));
+            let (may, deep, margin) = (may.eight(), deep.eight(), pairs.margin.eight());
             for k in (0..keys.len()).filter(|k| may.0[*k] > 0.0) {
                 let (one, two) = (one[k].0, two[k].0);
                 let seam = bodies.seams.concern(one.index) || bodies.seams.concern(two.index);
                 match points.touches(k).filter(|_| (deep.0[k] < 0.0 || last[k].is_some()) && !seam) {
                     None => {
-                        touches.extend(Touch::find(bodies, (one, two), pairs.margin.0[k], last[k], earlier));
+                        touches.extend(Touch::find(bodies, (one, two), margin.0[k], last[k], earlier));
                     }
                     Some(false) => {}
                     Some(true) => {

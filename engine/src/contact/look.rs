@@ -9,8 +9,8 @@
 
 use super::blocks::Block;
 use super::rows::{Row, SPIN, VX, VZ};
-use super::sweep::{Arms, gaps, gather, push};
-use crate::lanes::Eight;
+use super::sweep::{Arms, gaps, gather, normal, of, push};
+use crate::lanes::Wide;
 use crate::width::Work;
 
 /// A look at every point.
@@ -28,18 +28,18 @@ impl Work for Look<'_> {
     type Out = ();
 
     #[inline(always)]
-    fn run<const W: usize>(self) {
-        let (rate, band) = (Eight::all(1.0 / self.h), Eight::all(self.band));
-        let pulled = Eight::all(self.pulled);
+    fn run<V: Wide>(self) {
+        let (rate, band, pulled) = (V::all(1.0 / self.h), V::all(self.band), V::all(self.pulled));
         for block in self.blocks {
-            let (a, b) = (gather::<W>(self.rows, &block.row_a), gather::<W>(self.rows, &block.row_b));
+            let (a, b) = (gather::<V>(self.rows, &block.row_a), gather::<V>(self.rows, &block.row_b));
             let gap = gaps(block, &a, &b);
-            let along_n = block.nx * (b[VX] - a[VX]) + block.nz * (b[VZ] - a[VZ]);
-            #[allow(clippy::needless_range_loop)] // of several arrays
+            let [nx, nz] = normal::<V>(block);
+            let along_n = nx * (b[VX] - a[VX]) + nz * (b[VZ] - a[VZ]);
+            let Arms { lever_a, lever_b, .. } = Arms::<V>::at_first(block);
             for k in 0..2 {
-                let u = along_n + block.lever_b[k] * b[SPIN] - block.lever_a[k] * a[SPIN];
-                let reach = (band - gap[k]).pick(Eight::ZERO, -(gap[k] * rate));
-                block.asked[k] = reach + (reach - u).min(Eight::ZERO).max(-pulled);
+                let u = along_n + lever_b[k] * b[SPIN] - lever_a[k] * a[SPIN];
+                let reach = (band - gap[k]).pick(V::zero(), -(gap[k] * rate));
+                block.asked[k] = (reach + (reach - u).min(V::zero()).max(-pulled)).eight();
             }
         }
     }
@@ -55,10 +55,10 @@ impl Work for Warm<'_> {
     type Out = ();
 
     #[inline(always)]
-    fn run<const W: usize>(self) {
+    fn run<V: Wide>(self) {
         for block in self.blocks {
-            let [first, second] = block.push;
-            push::<W>(block, |a, b| Arms::of(block, a, b), self.rows, [first, second, block.grip]);
+            let [first, second] = of::<V>(&block.push);
+            push::<V>(block, |a, b| Arms::of(block, a, b), self.rows, [first, second, V::of(&block.grip.0)]);
         }
     }
 }

@@ -10,9 +10,9 @@ use super::blocks::Block;
 use super::rest::Effort;
 use super::rows::{Row, SPIN, TURN, VX, VZ, X, Z};
 use super::solve::PATIENCE;
-use super::sweep::{Part, gaps, gather};
+use super::sweep::{Part, gaps, gather, of};
 use crate::bodies::Motion;
-use crate::lanes::Eight;
+use crate::lanes::Wide;
 use crate::width::Work;
 use crate::world::World;
 
@@ -69,12 +69,12 @@ impl Work for Excess<'_> {
     type Out = f64;
 
     #[inline(always)]
-    fn run<const W: usize>(self) -> f64 {
-        let mut most = Eight::ZERO;
+    fn run<V: Wide>(self) -> f64 {
+        let mut most = V::zero();
         for block in self.blocks {
-            let (a, b) = (gather::<W>(self.rows, &block.row_a), gather::<W>(self.rows, &block.row_b));
-            let gap = gaps(block, &a, &b);
-            most = most.max(block.least[0] - gap[0]).max(block.least[1] - gap[1]);
+            let (a, b) = (gather::<V>(self.rows, &block.row_a), gather::<V>(self.rows, &block.row_b));
+            let (gap, least) = (gaps(block, &a, &b), of::<V>(&block.least));
+            most = most.max(least[0] - gap[0]).max(least[1] - gap[1]);
         }
         most.greatest()
     }
@@ -92,13 +92,13 @@ impl Work for Ask<'_> {
     type Out = ();
 
     #[inline(always)]
-    fn run<const W: usize>(self) {
-        let band = Eight::all(self.band);
+    fn run<V: Wide>(self) {
+        let band = V::all(self.band);
         for block in self.blocks {
-            let (a, b) = (gather::<W>(self.rows, &block.row_a), gather::<W>(self.rows, &block.row_b));
-            let gap = gaps(block, &a, &b);
-            for (k, gap) in gap.into_iter().enumerate() {
-                block.asked[k] = block.least[k] - gap - band;
+            let (a, b) = (gather::<V>(self.rows, &block.row_a), gather::<V>(self.rows, &block.row_b));
+            let (gap, least) = (gaps(block, &a, &b), of::<V>(&block.least));
+            for k in 0..2 {
+                block.asked[k] = (least[k] - gap[k] - band).eight();
             }
         }
     }

@@ -10,8 +10,8 @@
 
 use super::blocks::Block;
 use super::rows::{INVERSE_MASS, INVERSE_MOMENT, Row, Rows, SPIN, VX, VZ};
-use super::sweep::{Arms, Lanes, Response, gather, push};
-use crate::lanes::Eight;
+use super::sweep::{Arms, Lanes, Response, gather, normal, of, push};
+use crate::lanes::{Eight, Wide};
 use crate::width::{Width, Work};
 
 /// How good is good enough: changes of velocity below this share of what gravity does in a sub-step; more where there
@@ -105,7 +105,7 @@ impl Rest {
             let share = momentum.share();
             self.extrapolate(share);
             let Rest { guesses, now, beyond, .. } = self;
-            let (change, back) = width.run(Round { guesses, blocks, from: beyond, to: now, share: Eight::all(share) });
+            let (change, back) = width.run(Round { guesses, blocks, from: beyond, to: now, share });
             momentum.go_on(back > 0.0 || change > before);
             (before, left) = (change, change);
             if change <= effort.enough {
@@ -165,7 +165,7 @@ struct Round<'a> {
     blocks: &'a [Block],
     from: &'a [Row],
     to: &'a mut [Row],
-    share: Eight,
+    share: f64,
 }
 
 impl Work for Round<'_> {
@@ -173,21 +173,27 @@ impl Work for Round<'_> {
     type Out = (f64, f64);
 
     #[inline(always)]
-    fn run<const W: usize>(self) -> (f64, f64) {
-        let (mut most, mut back) = (Eight::ZERO, Eight::ZERO);
+    fn run<V: Wide>(self) -> (f64, f64) {
+        let (mut most, mut back, share) = (V::zero(), V::zero(), V::all(self.share));
         for (block, guess) in self.blocks.iter().zip(self.guesses) {
-            let (a, b) = (gather::<W>(self.from, &block.row_a), gather::<W>(self.from, &block.row_b));
-            let arms = Arms::at_first(block);
+            let (a, b) = (gather::<V>(self.from, &block.row_a), gather::<V>(self.from, &block.row_b));
+            let arms = Arms::<V>::at_first(block);
             let shared = Response::with(&arms, (a[SHARED_MASS], a[SHARED_MOMENT]), (b[SHARED_MASS], b[SHARED_MOMENT]));
-            let from: [Eight; 3] = core::array::from_fn(|k| guess.x[k] + self.share * (guess.x[k] - guess.last[k]));
-            let (x, change) = improve(block, &shared, &a, &b, &from);
-            let step: [Eight; 3] = core::array::from_fn(|k| x[k] - from[k]);
+            let (mut now, mut from) = ([V::zero(); 3], [V::zero(); 3]);
             for k in 0..3 {
-                back = back - change[k] * (x[k] - guess.x[k]);
-                most = most.max(change[k].abs());
+                now[k] = V::of(&guess.x[k].0);
+                from[k] = now[k] + share * (now[k] - V::of(&guess.last[k].0));
             }
-            *guess = Guess { x, last: guess.x };
-            push::<W>(block, |_, _| Arms::at_first(block), self.to, step);
+            let (x, change) = improve(block, &shared, &a, &b, &from);
+            guess.last = guess.x;
+            let mut step = x;
+            for k in 0..3 {
+                back = back - change[k] * (x[k] - now[k]);
+                most = most.max(change[k].abs());
+                step[k] = x[k] - from[k];
+                guess.x[k] = x[k].eight();
+            }
+            push::<V>(block, |_, _| Arms::<V>::at_first(block), self.to, step);
         }
         (most.greatest(), back.sum())
     }
@@ -195,17 +201,26 @@ impl Work for Round<'_> {
 
 /// Better pushes and friction, seeing the motions as they are; and the changes as velocities.
 #[inline(always)]
-fn improve(block: &Block, shared: &Response, a: &Lanes, b: &Lanes, from: &[Eight; 3]) -> ([Eight; 3], [Eight; 3]) {
+fn improve<V: Wide>(
+    block: &Block,
+    shared: &Response<V>,
+    a: &Lanes<V>,
+    b: &Lanes<V>,
+    from: &[V; 3],
+) -> ([V; 3], [V; 3]) {
     let (ux, uz) = (b[VX] - a[VX], b[VZ] - a[VZ]);
-    let along_n = block.nx * ux + block.nz * uz;
-    let u = |k: usize| along_n + block.lever_b[k] * b[SPIN] - block.lever_a[k] * a[SPIN];
-    let q1 = u(0) - block.asked[0] - (shared.k[0] * from[0] + shared.across * from[1]);
-    let q2 = u(1) - block.asked[1] - (shared.across * from[0] + shared.k[1] * from[1]);
+    let ([nx, nz], asked) = (normal::<V>(block), of::<V>(&block.asked));
+    let Arms { lever_a, lever_b, along_a, along_b } = Arms::<V>::at_first(block);
+    let along_n = nx * ux + nz * uz;
+    let u1 = along_n + lever_b[0] * b[SPIN] - lever_a[0] * a[SPIN];
+    let u2 = along_n + lever_b[1] * b[SPIN] - lever_a[1] * a[SPIN];
+    let q1 = u1 - asked[0] - (shared.k[0] * from[0] + shared.across * from[1]);
+    let q2 = u2 - asked[1] - (shared.across * from[0] + shared.k[1] * from[1]);
     let [x1, x2] = shared.complement([q1, q2]);
     let mass = a[SHARED_MASS] + b[SHARED_MASS];
-    let k = mass + a[SHARED_MOMENT] * block.along_a * block.along_a + b[SHARED_MOMENT] * block.along_b * block.along_b;
-    let slip = block.nz * ux - block.nx * uz + block.along_b * b[SPIN] - block.along_a * a[SPIN];
-    let most = block.friction * (x1 + x2);
+    let k = mass + a[SHARED_MOMENT] * along_a * along_a + b[SHARED_MOMENT] * along_b * along_b;
+    let slip = nz * ux - nx * uz + along_b * b[SPIN] - along_a * a[SPIN];
+    let most = V::of(&block.friction.0) * (x1 + x2);
     let grip = (from[2] - slip * k.inverse()).min(most).max(-most);
     let change = [shared.k[0] * (x1 - from[0]), shared.k[1] * (x2 - from[1]), k * (grip - from[2])];
     ([x1, x2, grip], change)

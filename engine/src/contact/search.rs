@@ -6,7 +6,7 @@ use crate::bodies::Bodies;
 use crate::broad_phase::grid::Grid;
 use crate::broad_phase::met::{Bounds, Met, Owner};
 use crate::detect::manifold::Placed;
-use crate::lanes::LANES;
+use crate::lanes::{LANES, Wide};
 use crate::plan::BroadPhasePlan;
 use crate::threads::{PER_THREAD, Threads};
 use crate::width::{self, Width};
@@ -168,7 +168,7 @@ impl width::Work for Visit<'_> {
     type Out = u64;
 
     #[inline(always)]
-    fn run<const W: usize>(self) -> u64 {
+    fn run<V: Wide>(self) -> u64 {
         self.grid.visit(self.cells, self.met)
     }
 }
