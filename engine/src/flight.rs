@@ -28,6 +28,14 @@ impl Pull {
         if pulls.is_empty() { Pull::NONE } else { pulls[body] }
     }
 
+    /// What a time comes to for the centre, and for turning.
+    #[inline]
+    #[must_use]
+    pub fn flights(&self, time: f64) -> (Flight, Flight) {
+        let of = |drag, pulled: bool| if pulled { Flight::new(drag, time) } else { Flight::slowed(drag, time) };
+        (of(self.drag.0, self.a.x != 0.0 || self.a.y != 0.0), of(self.drag.1, self.alpha != 0.0))
+    }
+
     /// Whether flight is uniform.
     #[inline]
     #[must_use]
@@ -103,8 +111,14 @@ impl Path {
         if self.pull.is_none() {
             return Change { shift: v * time, turn: omega * time, motion: self.motion };
         }
-        let Pull { a, alpha, drag } = self.pull;
-        let (linear, angular) = (Flight::new(drag.0, time), Flight::new(drag.1, time));
+        self.change_by(self.pull.flights(time))
+    }
+
+    /// The same with what the time comes to worked out already ([`Pull::flights`]).
+    #[inline]
+    #[must_use]
+    pub fn change_by(&self, (linear, angular): (Flight, Flight)) -> Change {
+        let (Motion { v, omega }, Pull { a, alpha, .. }) = (self.motion, self.pull);
         Change {
             shift: v * linear.reach + a * linear.fall,
             turn: omega * angular.reach + alpha * angular.fall,

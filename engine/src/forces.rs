@@ -19,12 +19,19 @@ impl Flight {
     /// The coefficients for a decay rate k ≥ 0 \[1/s\] over dt \[s\].
     #[must_use]
     pub fn new(k: f64, dt: f64) -> Self {
+        let slowed = Flight::slowed(k, dt);
+        let fall = if k == 0.0 { 0.5 * dt * dt } else { fall_per_square(k * dt) * dt * dt };
+        Flight { fall, ..slowed }
+    }
+
+    /// The same of what nothing accelerates: C is not worked out, and 0.
+    #[must_use]
+    pub fn slowed(k: f64, dt: f64) -> Self {
         if k == 0.0 {
-            return Flight { keep: 1.0, reach: dt, fall: 0.5 * dt * dt };
+            return Flight { keep: 1.0, reach: dt, fall: 0.0 };
         }
         let y = k * dt;
-        let reach = -libm::expm1(-y) / k;
-        Flight { keep: libm::exp(-y), reach, fall: fall_per_square(y) * dt * dt }
+        Flight { keep: libm::exp(-y), reach: -libm::expm1(-y) / k, fall: 0.0 }
     }
 }
 

@@ -196,7 +196,13 @@ impl<'a> Search<'a> {
     }
 
     fn at(&self, time: f64) -> Now {
-        let (change_a, change_b) = (self.a.path.change(time), self.b.path.change(time));
+        let (a, b) = (&self.a.path, &self.b.path);
+        let (change_a, change_b) = if a.pull == b.pull && !a.pull.is_none() {
+            let flights = a.pull.flights(time);
+            (a.change_by(flights), b.change_by(flights))
+        } else {
+            (a.change(time), b.change(time))
+        };
         let frame_a = turned(&self.a.path.frame, Vec2::zeros(), change_a.turn);
         let frame_b = turned(&self.b.path.frame, self.d + (change_b.shift - change_a.shift), change_b.turn);
         let path = |of: &Path, frame, motion| Path { frame, motion, pull: of.pull };

@@ -23,6 +23,8 @@ const SEAM: f64 = 1e-9;
 /// A part of a face, covered by a rectangle of some body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Span {
+    /// Four times the rectangle, and which of its faces.
+    face: u32,
     by: u32,
     from: f64,
     to: f64,
@@ -31,9 +33,10 @@ struct Span {
 /// All seams of a scene; empty when there is none.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Seams {
-    /// Where the spans of each face begin: four entries a rectangle, and one more that closes the last.
-    first: Vec<u32>,
+    /// In the order of the faces, then of the bodies that cover them.
     spans: Vec<Span>,
+    /// A bit for each rectangle up to the last that has a face covered anywhere.
+    concerned: Vec<u64>,
 }
 
 impl Seams {
@@ -46,29 +49,28 @@ impl Seams {
     /// Whether the rectangle has a face that is covered anywhere.
     #[must_use]
     pub fn concern(&self, rect: usize) -> bool {
-        !self.spans.is_empty() && self.first[4 * rect] != self.first[4 * rect + 4]
+        self.concerned.get(rect / 64).is_some_and(|bits| bits >> (rect % 64) & 1 == 1)
     }
 
     /// Whether a face is covered at a place along it: within a span, or at the end of the face that a span reaches. At the
     /// end of a span inside the face, where something stands on it, there is a corner that can be hit.
     fn covers(&self, of: Placed, face: Face, at: f64, margin: f64) -> bool {
-        let k = 4 * of.index + face as usize;
-        let spans = &self.spans[self.first[k] as usize..self.first[k + 1] as usize];
+        let key = 4 * of.index as u32 + face as u32;
+        let first = self.spans.partition_point(|span| span.face < key);
+        let mut spans = self.spans[first..].iter().take_while(|span| span.face == key);
         let (start, end) = face.width(of.rect);
         let from = |span: &Span| if span.from <= start + margin { start - margin } else { span.from + margin };
         let to = |span: &Span| if span.to >= end - margin { end + margin } else { span.to - margin };
-        spans.iter().any(|span| from(span) <= at && at <= to(span))
+        spans.any(|span| from(span) <= at && at <= to(span))
     }
 
     /// Finds the seams of all bodies where they stand.
     #[must_use]
     pub fn of(bodies: &Bodies) -> Seams {
-        let mut found: Vec<(usize, Span)> = Vec::new();
+        let mut spans: Vec<Span> = Vec::new();
         let mut each = |one: Placed, two: Placed| {
             for (a, b) in [(one, two), (two, one)] {
-                found.extend(
-                    Face::ALL.into_iter().filter_map(|face| Some((4 * a.index + face as usize, covered(a, face, b)?))),
-                );
+                spans.extend(Face::ALL.into_iter().filter_map(|face| covered(a, face, b)));
             }
         };
         for body in 0..bodies.len() {
@@ -78,29 +80,24 @@ impl Seams {
             }
         }
         adjoining_fixed(bodies, &mut each);
-        if found.is_empty() {
-            return Seams::default();
+        spans.sort_by_key(|span| (span.face, span.by));
+        Seams::new(spans)
+    }
+
+    fn new(spans: Vec<Span>) -> Seams {
+        let mut concerned = Vec::new();
+        for rect in spans.iter().map(|span| span.face as usize / 4) {
+            concerned.resize(concerned.len().max(rect / 64 + 1), 0);
+            concerned[rect / 64] |= 1 << (rect % 64);
         }
-        found.sort_by_key(|(face, span)| (*face, span.by));
-        let faces = 4 * bodies.rects.len();
-        let first = (0..=faces).map(|k| found.partition_point(|(face, _)| *face < k) as u32).collect();
-        Seams { first, spans: found.into_iter().map(|(_, span)| span).collect() }
+        Seams { spans, concerned }
     }
 
     /// A fixed body begins to move: it covers nothing of others any more, nor others of it.
     pub fn part(&mut self, bodies: &Bodies, body: usize) {
-        if self.spans.is_empty() {
-            return;
-        }
-        let own = bodies.first_rect[body] as usize..bodies.first_rect[body + 1] as usize;
-        let mut kept = Seams { first: vec![0], spans: Vec::new() };
-        for k in 0..self.first.len() - 1 {
-            let spans = &self.spans[self.first[k] as usize..self.first[k + 1] as usize];
-            let is_own = own.contains(&(k / 4));
-            kept.spans.extend(spans.iter().filter(|span| is_own == (span.by as usize == body)));
-            kept.first.push(kept.spans.len() as u32);
-        }
-        *self = if kept.spans.is_empty() { Seams::default() } else { kept };
+        let own = bodies.first_rect[body]..bodies.first_rect[body + 1];
+        self.spans.retain(|span| own.contains(&(span.face / 4)) == (span.by as usize == body));
+        *self = Seams::new(core::mem::take(&mut self.spans));
     }
 }
 
@@ -145,6 +142,7 @@ fn covered(of: Placed, face: Face, by: Placed) -> Option<Span> {
     }
     let length = end - start;
     ((high - low) * length > SEAM * small).then_some(Span {
+        face: 4 * of.index as u32 + face as u32,
         by: by.body as u32,
         from: start + low * length,
         to: start + high * length,
