@@ -105,6 +105,11 @@ impl Blocks {
         self.place[k] = (block as u32, lane as u8);
     }
 
+    /// Whether a row stands in any block, of those laid out at first.
+    pub(super) fn hold(&self, row: usize) -> bool {
+        self.taken[row] != 0
+    }
+
     /// The block and lane of a touch that is laid out.
     pub(super) fn lane(&self, k: usize) -> Option<(&Block, usize)> {
         let (block, lane) = self.place[k];

@@ -281,8 +281,9 @@ impl Contacts {
                 self.crowd.push(k as u32);
             }
         }
-        let Contacts { blocks, touches, of_touch, pairs, rows, keep, band, .. } = self;
+        let Contacts { blocks, touches, of_touch, pairs, rows, apart, keep, band, .. } = self;
         blocks.fill((touches, of_touch), pairs.left_out(), rows, (*keep, *band));
+        apart.begin_pushing(rows, |row| blocks.hold(row));
     }
 
     /// Bodies are about to fly, over times of that length; contacts push so many times as hard as they did at the end of the last.

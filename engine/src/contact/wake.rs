@@ -6,7 +6,7 @@
 
 use super::Contacts;
 use super::flying::Fliers;
-use super::rows::TURN;
+use super::rows::{Rows, TURN};
 use super::search::Search;
 use super::swept::ROOM;
 use super::touch::Touch;
@@ -28,9 +28,14 @@ pub(super) struct Apart {
     /// By the indices of their rectangles, in order; and whether each has been woken.
     pairs: Vec<(u32, u32)>,
     woken: Vec<bool>,
+    /// The axis that held each apart most when the part began, from the first to the second, and by how much \[m\]; once it was asked for.
+    axes: Vec<Option<(Vec2, f64)>>,
     /// The last pair of each body, and the one before of each pair's bodies, as twice its index, plus one on the second side.
     last: Vec<u32>,
     before: Vec<[u32; 2]>,
+    /// Rows of bodies that have pairs and that touches laid out may push, each once; and by row, whether it is among them.
+    pushed: Vec<u32>,
+    is_pushed: Vec<bool>,
 }
 
 impl Apart {
@@ -48,6 +53,8 @@ impl Apart {
     pub(super) fn link(&mut self, search: &Search, bodies: usize) {
         self.woken.clear();
         self.woken.resize(self.pairs.len(), false);
+        self.axes.clear();
+        self.axes.resize(self.pairs.len(), None);
         self.last.clear();
         self.last.resize(bodies, NONE);
         self.before.clear();
@@ -58,6 +65,31 @@ impl Apart {
                 before[side] = core::mem::replace(last, (2 * k + side) as u32);
             }
             self.before.push(before);
+        }
+    }
+
+    /// Remembers those of the rows that touches laid out may push and whose bodies have pairs, from one row on.
+    pub(super) fn begin_pushing(&mut self, rows: &Rows, is_laid_out: impl Fn(usize) -> bool) {
+        self.pushed.clear();
+        self.is_pushed.clear();
+        self.is_pushed.resize(rows.rows.len(), false);
+        for (k, body) in rows.mobile.iter().enumerate() {
+            let row = rows.first() + k;
+            if self.last[*body as usize] != NONE && is_laid_out(row) {
+                self.is_pushed[row] = true;
+                self.pushed.push(row as u32);
+            }
+        }
+    }
+
+    /// The rows of a touch that is laid out from now on.
+    pub(super) fn push_too(&mut self, rows: &Rows, (a, b): (u32, u32)) {
+        self.is_pushed.resize(rows.rows.len(), false);
+        for row in [a, b] {
+            let Some(k) = rows.mobile_of(row) else { continue };
+            if self.last[rows.mobile[k] as usize] != NONE && !core::mem::replace(&mut self.is_pushed[row as usize], true) {
+                self.pushed.push(row);
+            }
         }
     }
 
@@ -73,23 +105,24 @@ impl Contacts {
     pub(super) fn wake_pushed(&mut self, world: &mut World, h: f64) -> bool {
         let touches = self.touches.len();
         let gravity = world.plan.gravity();
-        let pulled = gravity.norm() * h;
-        for k in 0..self.rows.mobile.len() {
-            let body = self.rows.mobile[k] as usize;
-            if self.apart.last[body] == NONE || !self.deviates(world, k, (gravity, pulled)) {
-                continue;
+        let strength = gravity.norm();
+        let held = (strength > 0.0).then(|| (-gravity / strength, strength * h));
+        for at in 0..self.apart.pushed.len() {
+            let k = self.apart.pushed[at] as usize - self.rows.first();
+            if self.deviates(world, k, held) {
+                self.wake_around(world, self.rows.mobile[k] as usize, Some(h));
             }
-            self.wake_around(world, body, Some(h));
         }
         self.touches.len() > touches
     }
 
-    /// Whether contacts have changed a mobile row's motion in the sub-step by more than holding it against gravity.
-    fn deviates(&self, world: &World, k: usize, (gravity, pulled): (Vec2, f64)) -> bool {
+    /// Whether contacts have changed a mobile row's motion in the sub-step by more than holding it against gravity: upwards, and by
+    /// no more than gravity does.
+    fn deviates(&self, world: &World, k: usize, held: Option<(Vec2, f64)>) -> bool {
         let [x, z, turned] = self.fliers.fliers[k].changed(&self.rows.of_mobile()[k].0);
-        let mut change = Vec2::new(x, z);
-        if pulled > 0.0 {
-            let up = -gravity / gravity.norm();
+        let (mut change, mut pulled) = (Vec2::new(x, z), 0.0);
+        if let Some((up, most)) = held {
+            pulled = most;
             change -= up * change.dot(&up).clamp(0.0, pulled);
         }
         let reach = world.bodies.reach(self.rows.mobile[k] as usize);
@@ -112,7 +145,7 @@ impl Contacts {
     fn look_once_more(&mut self, world: &mut World, pair: usize, under_way: Option<f64>) {
         let rects = [self.apart.pairs[pair].0, self.apart.pairs[pair].1];
         let bodies = rects.map(|rect| self.search.body_of(rect));
-        if !self.may_meet(world, rects, bodies) {
+        if !self.may_meet(world, pair, bodies) {
             return;
         }
         let paths = bodies.map(|body| self.path_of(world, body));
@@ -135,6 +168,7 @@ impl Contacts {
         }
         let rows = self.rows.count_touch(&touch);
         touch.count_from(&self.rows.rows[rows.0 as usize].0, &self.rows.rows[rows.1 as usize].0);
+        self.apart.push_too(&self.rows, rows);
         self.blocks.add(self.touches.len(), &touch, rows, (self.keep, self.band));
         if touch.surface.restitution > 0.0 {
             self.crowd.push(self.touches.len() as u32);
@@ -147,9 +181,11 @@ impl Contacts {
     }
 
     /// Whether two rectangles may come to touch in what is left of the part, by the axis that held them apart when it began.
-    fn may_meet(&self, world: &World, rects: [u32; 2], bodies: [usize; 2]) -> bool {
-        let [a, b] = rects.map(|rect| self.search.placed(&world.bodies, rect).0);
-        let (axis, gap) = widest_gap(a.frame, a.rect, b.frame, b.rect);
+    fn may_meet(&mut self, world: &World, pair: usize, bodies: [usize; 2]) -> bool {
+        let (one, two) = self.apart.pairs[pair];
+        let [a, b] = [one, two].map(|rect| self.search.placed(&world.bodies, rect).0);
+        let (axis, gap) =
+            *self.apart.axes[pair].get_or_insert_with(|| widest_gap(a.frame, a.rect, b.frame, b.rect));
         let left = self.dt - self.gone;
         let (mut now, mut end, mut room) = ([0.0; 2], [0.0; 2], 0.0);
         for side in 0..2 {
