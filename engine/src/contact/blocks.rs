@@ -169,6 +169,13 @@ impl Blocks {
         }
     }
 
+    /// A point of a touch is not moved apart in this part of the step.
+    pub(super) fn part_nothing(&mut self, k: usize, p: usize) {
+        if let Some((block, lane)) = self.lane_mut(k) {
+            block.least[p].0[lane] = -FAR;
+        }
+    }
+
     /// Takes over the pushes of the touches.
     pub(super) fn renew(&mut self, touches: &[Touch]) {
         for (k, touch) in touches.iter().enumerate() {

@@ -108,7 +108,9 @@ impl Fliers {
         }
     }
 
-    /// Whether contact has made more of the motions than it can: it takes energy, but for what moving fixed bodies give.
+    /// Whether contact has made more of the motions than it can: it takes energy, but for what moving fixed bodies give. Where those
+    /// give any, they make nothing faster than what they can pass on: a row of bodies between walls that close is a toggle, and would
+    /// fling what slips out of it as fast as one likes.
     pub(super) fn gained(&self, rows: &Rows, reach: f64) -> bool {
         let fixed = rows.of_fixed();
         let square = |row: &[f64]| row[VX] * row[VX] + row[VZ] * row[VZ];
@@ -124,7 +126,9 @@ impl Fliers {
             fastest_free = fastest_free.max(came);
             fastest = fastest.max(square(row));
         }
-        now > free * (1.0 + 1e-12) + TWICE * given || fastest > TWICE * fastest_free.max(driven)
+        let free = free * (1.0 + 1e-12);
+        let flings = now > free && fastest > fastest_free.max(TWICE * driven);
+        flings || now > free + TWICE * given || fastest > TWICE * fastest_free.max(driven)
     }
 
     /// All mobile bodies stop, and stay where they are through the time.

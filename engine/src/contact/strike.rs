@@ -103,13 +103,17 @@ impl Contacts {
         [a, b].into_iter().all(|row| self.rows.mobile_of(row).is_none_or(|at| self.rows.degree[at] == 1))
     }
 
-    /// Pairs of which it is known that they do not meet within the sub-step ask for nothing, unless they touch already.
+    /// Pairs of which it is known that they do not meet within the sub-step ask for nothing, unless they touch already; nor are they parted
+    /// where they touch no other: a corner that turns away from a face is not where its motion as the step began says.
     pub(super) fn leave_clear(&mut self) {
         for &k in &self.clear {
-            let [Row(a), Row(b)] = &self.rows_now(k as usize);
-            let touch = &self.touches[k as usize];
-            for p in (0..2).filter(|p| touch.state(*p, a, b).0 > self.band) {
-                self.blocks.ask_nothing(k as usize, p);
+            let (k, [Row(a), Row(b)]) = (k as usize, &self.rows_now(k as usize));
+            let lonely = self.is_lonely(k);
+            for p in (0..2).filter(|p| self.touches[k].state(*p, a, b).0 > self.band) {
+                self.blocks.ask_nothing(k, p);
+                if lonely {
+                    self.blocks.part_nothing(k, p);
+                }
             }
         }
         for &k in self.lonely.iter().filter(|k| self.touches[**k as usize].met) {

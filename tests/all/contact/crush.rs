@@ -5,11 +5,14 @@ use choque_engine::{Scene, World};
 
 use super::kit::{DT, Random, block, grounded, resting, state, wall};
 
-/// A crushed block's greatest speed [m/s], where the wall makes 1. Observed: not yet.
-const FLUNG: f64 = 3.0;
+/// A crushed block's greatest speed [m/s], where the wall makes 1. Observed: 1.000.
+const FLUNG: f64 = 1.01;
 
-/// What is left of overlaps when there is room again [m]. Observed: not yet.
-const RECOVERED: f64 = 1e-5;
+/// What is left of overlaps when there is room again, some seconds later [m]: what counts as none. Observed: 1.9e-8.
+const RECOVERED: f64 = 4e-8;
+
+/// The same a second later [m]. Observed: 6.4e-6.
+const SOON: f64 = 1e-5;
 
 /// A block between a wall and one that closes by `beyond` more than there is room for, and then leaves.
 fn crush(gravity: bool, friction: f64, beyond: f64) {
@@ -63,8 +66,16 @@ fn closed() -> f64 {
     libm::sqrt(2.2 * 50.0 * CAR.0 * CAR.1) / 2.0
 }
 
-/// How deep a car may be pressed in: 1 % of its length. Observed: not yet.
+/// How deep a car may be pressed in [m]: 1 % of its length, where there is a way out. Observed with seed 1 and a friction of 0.5: 5e-4.
 const PRESSED: f64 = 0.01 * CAR.0;
+
+/// The same where there may be none: a straight row of seven is 53 cm longer than the room that is left at the end, which is 6.7 cm at each
+/// of its eight contacts if they share it evenly. Observed: 10.2 cm, where a car is wedged out of the row.
+const JAMMED: f64 = 0.025 * CAR.0;
+
+/// A car's greatest speed [m/s], where walls make 1. There is no bound for rigid bodies: a row between walls is a toggle, and
+/// with a thirty-second of the time step and no guard against jams a car slips out of one at 23 m/s. Observed: 3.6.
+const SQUEEZED: f64 = 4.0;
 
 /// Fifty cars headed anywhere between four walls that close at 1 m/s.
 fn arena(seed: u64, friction: f64) -> Scene {
@@ -91,7 +102,8 @@ fn arena(seed: u64, friction: f64) -> Scene {
     scene
 }
 
-fn close_and_open(seed: u64, friction: f64, steps_open: u32) {
+/// Lets the walls close and open again; gives how deep cars are pressed in at most, and what is left of it [m].
+fn close_and_open(seed: u64, friction: f64, steps_open: u32) -> (f64, f64) {
     let mut world = World::new(&arena(seed, friction)).expect("a valid scene");
     let closing = ((OPEN - closed()) / DT) as u32;
     let cars: Vec<_> = world.ids().filter(|id| world.kind(*id) == Kind::Mobile).collect();
@@ -110,28 +122,31 @@ fn close_and_open(seed: u64, friction: f64, steps_open: u32) {
     }
     let what = format!("seed {seed}, μ = {friction}");
     println!("fifty cars, {what}: {deepest:.4} m deep at most, {fastest:.2} m/s, left {:e}", world.deepest());
-    assert!(fastest <= 2.5 * FLUNG, "{what}: {fastest} m/s");
-    assert!(deepest <= PRESSED, "{what}: {deepest} m");
-    assert!(world.deepest() <= RECOVERED, "{what}: {:e} m left", world.deepest());
+    assert!(fastest <= SQUEEZED, "{what}: {fastest} m/s");
     let room = world.position(world.ids().next().expect("a wall")).y - 1.0;
     for id in cars {
         let at = world.position(id);
         assert!(at.x.abs() < room && at.y.abs() < room, "{what}: {} is at {at:?}", world.name(id));
     }
+    (deepest, world.deepest())
 }
 
 #[test]
 #[cfg_attr(debug_assertions, ignore = "fifty cars: ten seconds in debug")]
 fn walls_close_on_fifty_cars_and_let_them_go() {
-    close_and_open(1, 0.5, 60);
+    let (deepest, left) = close_and_open(1, 0.5, 60);
+    assert!(deepest <= PRESSED, "{deepest} m");
+    assert!(left <= SOON, "{left:e} m left");
 }
 
 #[test]
-#[ignore = "not met: without friction a car between two walls and a jam is flung at 18 m/s"]
+#[cfg_attr(debug_assertions, ignore = "fifty cars, twelve times: minutes in debug")]
 fn walls_close_on_fifty_cars_of_any_heading() {
     for seed in 0..6 {
         for friction in [0.0, 0.7] {
-            close_and_open(seed, friction, 420);
+            let (deepest, left) = close_and_open(seed, friction, 420);
+            assert!(deepest <= JAMMED, "seed {seed}, μ = {friction}: {deepest} m");
+            assert!(left <= RECOVERED, "seed {seed}, μ = {friction}: {left:e} m left");
         }
     }
 }

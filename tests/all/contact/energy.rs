@@ -5,9 +5,9 @@ use choque_engine::{Scene, World};
 
 use super::kit::{DT, Random, energy, floor, grounded, resting, wall};
 
-/// How much the energy may grow in a step, as a share of that at the start: rounding. A solver that pushes overlaps out must pay for the
-/// lift from the motion. Observed: not yet.
-const GROWTH: f64 = 3e-5;
+/// How much the energy may grow in a step, as a share of that at the start. What grows it is that bodies are moved apart which have been in
+/// each other since a step that lost more. Observed: 1.2e-6 in these sixty piles, 1.7e-5 in one of three hundred others.
+const GROWTH: f64 = 2e-5;
 
 /// How much it may where a body turns about a corner until it lies. Observed: 9e-10.
 const TURNING: f64 = 1e-8;
@@ -90,8 +90,7 @@ fn p14_painleves_block_neither_stops_the_run_nor_gains() {
             let (growth, world) = greatest_growth(&scene, libm::round(8.0 / time_step) as u32);
             println!("P14: μ = {mu}, v = {v}, dt = {time_step:.4}: grew by {growth:e} J");
             // What turns about a corner is held there, not struck anew in every sub-step.
-            let most = if v < 8.0 { TURNING } else { GROWTH };
-            assert!(growth <= most * start, "μ = {mu}, v = {v}: by {growth:e} J in a step");
+            assert!(growth <= TURNING * start, "μ = {mu}, v = {v}: by {growth:e} J in a step");
             assert!(
                 world.kinetic_energy() <= 1e-9,
                 "μ = {mu}, v = {v}: it comes to rest, not {} J",
