@@ -145,6 +145,13 @@ impl Grid {
         compared
     }
 
+    /// Gathers the pairs of one of the bounds, which may have become others, with those that they meet.
+    pub(crate) fn around(&self, index: u32, owner: Owner, bounds: Bounds, met: &mut Met) -> u64 {
+        met.clear();
+        let entry = Entry { bounds, index, owner };
+        self.levels.iter().map(|level| self.gather_rows(level, &entry, met)).sum()
+    }
+
     #[inline(always)]
     fn entries_of(&self, first: u32, end: u32) -> Range<usize> {
         self.begins[first as usize] as usize..self.begins[end as usize] as usize

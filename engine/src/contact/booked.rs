@@ -20,12 +20,13 @@ impl Contacts {
         }
     }
 
-    /// A row's body has flown ahead of the others.
-    pub(super) fn book_ahead(&self, world: &mut World, row: u32, time: f64) {
+    /// A row's body has flown ahead of the others for a time, pulled or not.
+    pub(super) fn book_ahead(&self, world: &mut World, row: u32, (time, pulled): (f64, bool)) {
         let (Some(ledger), Some(at)) = (&mut world.ledger, self.rows.mobile_of(row)) else { return };
         let body = self.rows.mobile[at] as usize;
         let row = &self.rows.rows[row as usize];
-        ledger.fly_ahead(&world.bodies, body, (time, self.forces(&world.plan, body)), (row.place(), row.motion()));
+        let forces = if pulled { self.forces(&world.plan, body) } else { Forces::default() };
+        ledger.fly_ahead(&world.bodies, body, (time, forces), (row.place(), row.motion()));
     }
 
     /// An impact of the bodies of two rows, which stand where they meet for the moment.
@@ -61,7 +62,7 @@ impl Contacts {
     /// Bodies stand where they have come to.
     pub(super) fn close_books(&self, world: &mut World, dt: f64) {
         let World { ledger: Some(ledger), bodies, movers, plan, .. } = world else { return };
-        let solved = !self.touches.is_empty();
+        let solved = self.has_rows();
         for body in movers.mobile.iter().filter(|body| !(solved && self.rows.of(**body).is_some())) {
             ledger.flown_alone(bodies, *body as usize, dt, &self.forces(plan, *body as usize));
         }

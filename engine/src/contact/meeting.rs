@@ -2,12 +2,12 @@
 
 use super::touch::Touch;
 use crate::area::Rect;
-use crate::bodies::Bodies;
+use crate::bodies::{Bodies, Motion};
 use crate::detect::manifold::{Manifold, Placed, Point};
 use crate::detect::near::{Before, meet};
 use crate::detect::touch::at_face;
 use crate::detect::{overlap, seams};
-use crate::flight::Path;
+use crate::flight::{Change, Path};
 use crate::frame::Frame;
 use crate::impact_time::{Flier, Touch as Found, first_open_touch};
 use crate::world::World;
@@ -15,7 +15,7 @@ use crate::world::World;
 /// Rectangles deeper in each other than this share of the smaller one do not come to touch any more; they are parted.
 const OVERLAPPED: f64 = 1e-9;
 
-/// The two rectangles of a touch, the reference first, with their bodies.
+/// Two rectangles with their bodies: of a touch, the reference first, or any.
 pub(super) struct Two<'a> {
     bodies: &'a Bodies,
     body: [usize; 2],
@@ -27,6 +27,49 @@ impl<'a> Two<'a> {
         let (one, two) = (touch.rects.0 as usize, touch.rects.1 as usize);
         let index = if touch.of_first { [one, two] } else { [two, one] };
         Two { bodies, body: [touch.a as usize, touch.b as usize], index }
+    }
+
+    /// Of those bodies, the rectangles of those indices.
+    pub(super) fn between(bodies: &'a Bodies, [one, two]: [(usize, usize); 2]) -> Two<'a> {
+        Two { bodies, body: [one.0, two.0], index: [one.1, two.1] }
+    }
+
+    /// How deep they are in each other.
+    pub(super) fn depth(&self, paths: &[Path; 2]) -> f64 {
+        overlap::depth(&paths[0].frame, self.rect(0), &paths[1].frame, self.rect(1))
+    }
+
+    /// How deep they may be in each other and come to touch yet.
+    fn least_depth(&self) -> f64 {
+        OVERLAPPED * self.rect(0).half().min().min(self.rect(1).half().min())
+    }
+
+    /// When and where they meet within a time, as their bodies fly; `None` where they overlap already.
+    pub(super) fn meet(&self, paths: &[Path; 2], left: f64) -> Option<(f64, Manifold)> {
+        if self.depth(paths) > self.least_depth() {
+            return None;
+        }
+        let [a, b] = [0, 1].map(|k| Flier { path: paths[k], rect: *self.rect(k) });
+        let found = first_open_touch(&a, &b, left, |found, frames| self.contact(found, frames).0)?;
+        let frames = paths.map(|path| path.after(found.time).frame);
+        Some((found.time, self.contact(&found, [&frames[0], &frames[1]]).1))
+    }
+
+    /// The touch of the moment at which they meet, as if counted from when their bodies set out on their paths.
+    pub(super) fn touch_at(&self, paths: &[Path; 2], time: f64, manifold: &Manifold) -> Touch {
+        let frames = paths.map(|path| path.after(time).frame);
+        let [one, two] = self.placed([&frames[0], &frames[1]]);
+        let of_first = manifold.reference == one.body;
+        let mut touch = Touch::of(self.bodies, if of_first { (one, two) } else { (two, one) }, manifold);
+        touch.of_first = of_first;
+        touch.rects = (one.index as u32, two.index as u32);
+        let come = paths.map(|path| {
+            let Change { shift, turn, motion: Motion { v, omega } } = path.change(time);
+            [v.x, v.y, omega, shift.x, shift.y, turn, 0.0, 0.0]
+        });
+        let (a, b) = if of_first { (&come[0], &come[1]) } else { (&come[1], &come[0]) };
+        touch.count_from(a, b);
+        touch
     }
 
     fn rect(&self, which: usize) -> &'a Rect {
@@ -52,19 +95,14 @@ impl<'a> Two<'a> {
 /// When and where the two rectangles of a touch meet within a time: at once where they overlap.
 pub(super) fn meeting(world: &mut World, touch: &Touch, paths: &[Path; 2], left: f64) -> Option<(f64, Manifold)> {
     let two = Two::of(&world.bodies, touch);
-    let small = two.rect(0).half().min().min(two.rect(1).half().min());
-    let depth = overlap::depth(&paths[0].frame, two.rect(0), &paths[1].frame, two.rect(1));
-    if depth > OVERLAPPED * small {
+    if two.depth(paths) > two.least_depth() {
         let before = Before { of_first: true, face: touch.face, normal: touch.n };
         let [one, other] = two.placed([&paths[0].frame, &paths[1].frame]);
         let manifold = meet(&world.bodies, (one, other), 0.0, Some(&before), |body| world.bodies.frame[body])?;
         return Some((0.0, manifold));
     }
     world.work.touches_sought += 1;
-    let [a, b] = [0, 1].map(|k| Flier { path: paths[k], rect: *two.rect(k) });
-    let found = first_open_touch(&a, &b, left, |found, frames| two.contact(found, frames).0)?;
-    let frames = paths.map(|path| path.after(found.time).frame);
-    Some((found.time, two.contact(&found, [&frames[0], &frames[1]]).1))
+    two.meet(paths, left)
 }
 
 /// Where two rectangles will meet soon, taken to meet there at once: those of their points that `come`.

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | who may touch within the step, and where | [`Contacts::find`] |
 //! | bodies and touches laid out for the solver | [`Contacts::lay_out`], [`rows`], [`blocks`] |
-//! | sub-step: impacts, of bodies that touch no other and in crowds | [`pairs`], [`strike`] |
+//! | sub-step: impacts, of fast bodies, of those that touch no other, and in crowds | [`fast`], [`pairs`], [`strike`] |
 //! | what an impact or a push sets against others that were apart | [`wake`] |
 //! | sub-step: what acts on bodies over it | [`Fliers::set_out`](flying::Fliers::set_out) |
 //! | sub-step: pushes and friction at every touch | [`solve`], [`sweep`], [`hasten`], [`rest`] |
@@ -17,6 +17,7 @@
 mod abreast;
 mod blocks;
 mod booked;
+mod fast;
 mod find;
 mod flying;
 mod hasten;
@@ -51,6 +52,7 @@ use crate::step::Hit;
 use crate::width::Width;
 use crate::world::World;
 use blocks::Blocks;
+use fast::Fast;
 use flying::Fliers;
 use hasten::Hasten;
 use kept::Kept;
@@ -112,6 +114,12 @@ pub(crate) struct Contacts {
     clear: Vec<u32>,
     /// How many touches there were when the part of the step began; those that join it come after them.
     found: usize,
+    /// Whether any bodies are laid out.
+    solves: bool,
+    /// Bodies that fly far within a sub-step; the smallest half size of a mobile body, and how far any reaches from its centre \[m\].
+    fast: Fast,
+    smallest: f64,
+    farthest: f64,
     /// Whether nothing moved in the step before and nothing has been done since: where sleeping is allowed, all sleeps.
     stood: bool,
     /// How far a fixed body reaches from its centre at most \[m\].
@@ -151,6 +159,10 @@ impl Contacts {
             round: 0,
             clear: Vec::new(),
             found: 0,
+            solves: false,
+            fast: Fast::default(),
+            smallest: if smallest.is_finite() { smallest } else { 0.0 },
+            farthest: (0..bodies.len()).map(|body| bodies.reach(body)).fold(0.0, f64::max),
             stood: false,
             reach: (0..bodies.len())
                 .filter(|body| !bodies.is_mobile(*body))
@@ -202,9 +214,9 @@ impl World {
     fn solve_part(&mut self, contacts: &mut Contacts, dt: f64, substeps: u32, time: f64) {
         self.set_out_on_courses(time, dt);
         contacts.find(self, dt);
-        contacts.lay_out(self, dt);
+        contacts.lay_out(self, dt, substeps);
         contacts.open_books(self, time - dt);
-        if !contacts.touches.is_empty() {
+        if contacts.has_rows() {
             let h = dt / f64::from(substeps);
             contacts.begin_flights(self, h, 1.0);
             for k in 0..substeps {
@@ -238,7 +250,7 @@ impl World {
     /// Bodies that nothing is near.
     fn fly_alone(&mut self, contacts: &Contacts, dt: f64) {
         let World { plan, bodies, movers, work, .. } = self;
-        let touched = |body: u32| !contacts.touches.is_empty() && contacts.rows.of(body).is_some();
+        let touched = |body: u32| contacts.has_rows() && contacts.rows.of(body).is_some();
         let pulls = contacts.pulls.act().then_some(|body: usize| contacts.pulls.on_mobile(body));
         let lost = advance_alone(bodies, movers, plan.flight, dt, pulls.as_ref(), touched, work);
         if let Some(body) = lost {
@@ -254,14 +266,21 @@ impl Contacts {
         if few { self.plan.substeps } else { 1 }
     }
 
+    /// Whether any bodies are laid out for the solver; all others fly on in one go.
+    fn has_rows(&self) -> bool {
+        self.solves
+    }
+
     /// Lays bodies and touches out for the solver.
-    fn lay_out(&mut self, world: &World, dt: f64) {
-        if self.touches.is_empty() {
+    fn lay_out(&mut self, world: &World, dt: f64, substeps: u32) {
+        let fast = self.find_fast(world, dt / f64::from(substeps));
+        self.solves = fast || !self.touches.is_empty();
+        if !self.solves {
             return;
         }
-        let Contacts { rows, touches, of_touch, apart, search, .. } = self;
+        let Contacts { rows, touches, of_touch, apart, search, fast, .. } = self;
         apart.link(search, world.bodies.len());
-        rows.fill(&world.bodies, touches, apart.fixed(search, &world.bodies), of_touch);
+        rows.fill(&world.bodies, touches, fast.bodies(), of_touch);
         (self.dt, self.gone) = (dt, 0.0);
         self.keep = libm::exp(-RECOVERY * dt);
         self.found = self.touches.len();
@@ -293,6 +312,7 @@ impl Contacts {
     }
 
     fn substep(&mut self, world: &mut World, h: f64) {
+        self.strike_fast(world, h);
         self.strike_pairs(world, h);
         self.strike(world, h);
         if self.blocks.count == 0 {

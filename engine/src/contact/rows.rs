@@ -62,8 +62,9 @@ pub(super) struct Rows {
     pub(super) rows: Vec<Row>,
     /// The mobile bodies, in the order of their rows.
     pub(super) mobile: Vec<u32>,
-    /// How many fixed bodies have a row.
+    /// How many fixed bodies have a row, and which.
     fixed: usize,
+    fixed_bodies: Vec<u32>,
     /// The row of each body; `NONE` of those without.
     row_of: Vec<u32>,
     /// How many touches each mobile body has, in the order of `mobile`.
@@ -73,33 +74,35 @@ pub(super) struct Rows {
 const NONE: u32 = u32::MAX;
 
 impl Rows {
-    /// Makes rows for the bodies of these touches, and for fixed bodies of pairs that may touch yet; gives the rows of each touch.
+    /// Makes rows for the bodies of these touches, for some more, and for all fixed bodies that anything may come to; gives the rows
+    /// of each touch.
     pub(super) fn fill(
         &mut self,
         bodies: &Bodies,
         touches: &[Touch],
-        fixed: impl Iterator<Item = u32>,
+        more: impl Iterator<Item = u32>,
         of_touch: &mut Vec<(u32, u32)>,
     ) {
         self.row_of.clear();
         self.row_of.resize(bodies.len(), NONE);
-        for body in touches.iter().flat_map(|touch| [touch.a, touch.b]).chain(fixed) {
+        for body in touches.iter().flat_map(|touch| [touch.a, touch.b]).chain(more) {
             self.row_of[body as usize] = 0;
         }
         self.rows.clear();
         self.rows.resize(IDLE, Row([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0]));
         self.mobile.clear();
         self.degree.clear();
-        let marked = |row_of: &[u32], body: usize, mobile| row_of[body] != NONE && bodies.is_mobile(body) == mobile;
+        self.fixed_bodies.clear();
         for body in 0..bodies.len() {
-            if marked(&self.row_of, body, false) {
+            if !bodies.is_mobile(body) && !bodies.rects_of(body).is_empty() {
+                self.fixed_bodies.push(body as u32);
                 self.row_of[body] = self.rows.len() as u32;
                 self.rows.push(row(bodies, body, false));
             }
         }
         self.fixed = self.rows.len() - IDLE;
         for body in 0..bodies.len() {
-            if marked(&self.row_of, body, true) {
+            if self.row_of[body] != NONE && bodies.is_mobile(body) {
                 self.add(bodies, body);
             }
         }
@@ -155,6 +158,12 @@ impl Rows {
     /// The row of a body that has one.
     pub(super) fn of(&self, body: u32) -> Option<u32> {
         Some(self.row_of[body as usize]).filter(|row| *row != NONE)
+    }
+
+    /// The body of a row, unless it belongs to nobody.
+    pub(super) fn body_of(&self, row: u32) -> Option<usize> {
+        let fixed = || self.fixed_bodies.get((row as usize).checked_sub(IDLE)?);
+        self.mobile_of(row).map(|at| &self.mobile[at]).or_else(fixed).map(|body| *body as usize)
     }
 
     /// Whether the row is a mobile body's; which of `mobile` it is.

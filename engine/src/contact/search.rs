@@ -26,6 +26,8 @@ pub(super) struct Search {
     /// The pairs found, by the indices of their rectangles, i < j, in order.
     near: Vec<(u32, u32)>,
     begins: Vec<u32>,
+    /// Pairs found around one of them.
+    around: Met,
 }
 
 /// Fewer pairs than one for so many rectangles are sorted by comparing them.
@@ -65,6 +67,25 @@ impl Search {
     /// The pairs found last.
     pub(super) fn near(&self) -> &[(u32, u32)] {
         &self.near
+    }
+
+    /// The rectangles that sweep over what a rectangle sweeps by now, if bodies fly as they set out; adds them.
+    pub(super) fn around(
+        &mut self,
+        (rect, swept): (u32, Bounds),
+        plan: BroadPhasePlan,
+        near: &mut Vec<u32>,
+        work: &mut Work,
+    ) {
+        let owner = self.owners[rect as usize];
+        if plan == BroadPhasePlan::AllPairs {
+            work.bounds_compared += self.bounds.len() as u64;
+            let met = self.bounds.iter().zip(&self.owners).enumerate();
+            near.extend(met.filter(|(_, (b, o))| owner.can_meet(**o) && b.meet(&swept)).map(|(other, _)| other as u32));
+            return;
+        }
+        work.bounds_compared += self.grid.around(rect, owner, swept, &mut self.around);
+        near.extend(self.around.pairs().iter().map(|(one, two)| if *one == rect { *two } else { *one }));
     }
 
     /// Whose a rectangle is.

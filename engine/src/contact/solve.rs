@@ -115,6 +115,7 @@ impl Contacts {
                 break;
             }
             self.look(from, h, 0.0);
+            self.leave_clear();
             for sweep in 0..LEAST_SWEEPS {
                 self.sweep(from, sweep % 2 == 1);
             }

@@ -36,7 +36,7 @@ impl World {
         }
         if !stood {
             contacts.find(self, dt);
-            contacts.lay_out(self, dt);
+            contacts.lay_out(self, dt, contacts.plan.substeps);
             if contacts.touches.is_empty() {
                 return false;
             }

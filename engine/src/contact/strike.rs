@@ -116,6 +116,7 @@ impl Contacts {
                 }
             }
         }
+        self.leave_fast();
         for &k in self.lonely.iter().filter(|k| self.touches[**k as usize].met) {
             (0..2).for_each(|p| self.blocks.ask_nothing(k as usize, p));
         }
@@ -162,8 +163,8 @@ impl Contacts {
         })
     }
 
-    /// After an impact the pair stands otherwise than when the step began: where it touches is found again.
-    pub(super) fn look_again(&mut self, world: &World, k: usize) {
+    /// After an impact the pair stands otherwise than when the step began: where it touches is found again; whether it is.
+    pub(super) fn look_again(&mut self, world: &World, k: usize) -> bool {
         let touch = self.touches[k];
         let (row_a, row_b) = self.of_touch[k];
         let [path_a, path_b] = self.paths(world, k, [false; 2]);
@@ -173,15 +174,16 @@ impl Contacts {
         let margin = 2.0 * (one.rect.half().min() + other.rect.half().min());
         let Some(mut now) = Touch::find(&world.bodies, pair, margin, Some(&touch), |body| world.bodies.frame[body])
         else {
-            return;
+            return false;
         };
         if now.a != touch.a {
-            return;
+            return false;
         }
         let [Row(a), Row(b)] = &self.rows_now(k);
         now.count_from(a, b);
         self.blocks.set(k, &now, (row_a, row_b), self.keep, self.band);
         self.touches[k] = now;
+        true
     }
 
     /// How strongly what acts on two bodies draws them together \[m/s²\].
@@ -236,7 +238,7 @@ impl Contacts {
     }
 
     /// The rows of a touch as they are by now: a fixed body goes on as far into the sub-step as the other has flown ahead.
-    fn rows_now(&self, k: usize) -> [Row; 2] {
+    pub(super) fn rows_now(&self, k: usize) -> [Row; 2] {
         let (a, b) = self.of_touch[k];
         let ahead = self.ahead(k);
         [a, b].map(|row| {
@@ -268,7 +270,7 @@ impl Contacts {
         for (row, (path, flies)) in [row_a, row_b].into_iter().zip(meets.paths.iter().zip(flies)) {
             if flies && self.rows.mobile_of(row).is_some() {
                 self.fliers.go_on(&mut self.rows, row, path, meets.time);
-                self.book_ahead(world, row, meets.time);
+                self.book_ahead(world, row, (meets.time, true));
             }
         }
         let moved = meets.paths.map(|path| path.after(meets.time));
@@ -276,7 +278,13 @@ impl Contacts {
     }
 
     /// Exchanges motion at a manifold of two bodies that stand and move so; whether anything approached.
-    fn exchange(&mut self, world: &mut World, k: usize, (manifold, now): (&Manifold, &[Path; 2]), h: f64) -> bool {
+    pub(super) fn exchange(
+        &mut self,
+        world: &mut World,
+        k: usize,
+        (manifold, now): (&Manifold, &[Path; 2]),
+        h: f64,
+    ) -> bool {
         let touch = self.touches[k];
         let (row_a, row_b) = self.of_touch[k];
         let pair = [touch.a as usize, touch.b as usize];
@@ -297,6 +305,8 @@ impl Contacts {
             world.bodies.surface[body] = surface;
         }
         let Some(act) = act else { return false };
+        self.note_speed(row_a, h);
+        self.note_speed(row_b, h);
         self.tell(world, k, (act.middle, act.normal), manifold.depth.max(0.0));
         for body in pair {
             self.wake_around(world, body, None);

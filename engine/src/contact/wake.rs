@@ -11,7 +11,6 @@ use super::search::Search;
 use super::swept::ROOM;
 use super::touch::Touch;
 use crate::area::Vec2;
-use crate::bodies::Bodies;
 use crate::detect::overlap::widest_gap;
 use crate::flight::Path;
 use crate::world::World;
@@ -87,16 +86,12 @@ impl Apart {
         self.is_pushed.resize(rows.rows.len(), false);
         for row in [a, b] {
             let Some(k) = rows.mobile_of(row) else { continue };
-            if self.last[rows.mobile[k] as usize] != NONE && !core::mem::replace(&mut self.is_pushed[row as usize], true) {
+            if self.last[rows.mobile[k] as usize] != NONE
+                && !core::mem::replace(&mut self.is_pushed[row as usize], true)
+            {
                 self.pushed.push(row);
             }
         }
-    }
-
-    /// The fixed bodies among them.
-    pub(super) fn fixed<'a>(&'a self, search: &'a Search, bodies: &'a Bodies) -> impl Iterator<Item = u32> {
-        let of_pairs = self.pairs.iter().flat_map(|pair| [pair.0, pair.1]).map(|rect| search.body_of(rect));
-        of_pairs.filter(|body| !bodies.is_mobile(*body)).map(|body| body as u32)
     }
 }
 
@@ -161,11 +156,16 @@ impl Contacts {
         }
         margin = (margin + u.norm()) * left + ROOM * (placed[0].rect.half().min() + placed[1].rect.half().min());
         let stood = |body: usize| world.bodies.frame[body];
-        let Some(mut touch) = Touch::find(&world.bodies, (placed[0], placed[1]), margin, None, stood) else { return };
+        let Some(touch) = Touch::find(&world.bodies, (placed[0], placed[1]), margin, None, stood) else { return };
         self.apart.woken[pair] = true;
         for body in bodies {
             self.join(world, body, under_way);
         }
+        self.add_touch(world, touch);
+    }
+
+    /// Lays out a touch that has come to be, of bodies that have rows, as they stand by now.
+    pub(super) fn add_touch(&mut self, world: &mut World, mut touch: Touch) -> usize {
         let rows = self.rows.count_touch(&touch);
         touch.count_from(&self.rows.rows[rows.0 as usize].0, &self.rows.rows[rows.1 as usize].0);
         self.apart.push_too(&self.rows, rows);
@@ -178,14 +178,14 @@ impl Contacts {
         if let Some(ledger) = &mut world.ledger {
             ledger.expect_touches(self.touches.len());
         }
+        self.touches.len() - 1
     }
 
     /// Whether two rectangles may come to touch in what is left of the part, by the axis that held them apart when it began.
     fn may_meet(&mut self, world: &World, pair: usize, bodies: [usize; 2]) -> bool {
         let (one, two) = self.apart.pairs[pair];
         let [a, b] = [one, two].map(|rect| self.search.placed(&world.bodies, rect).0);
-        let (axis, gap) =
-            *self.apart.axes[pair].get_or_insert_with(|| widest_gap(a.frame, a.rect, b.frame, b.rect));
+        let (axis, gap) = *self.apart.axes[pair].get_or_insert_with(|| widest_gap(a.frame, a.rect, b.frame, b.rect));
         let left = self.dt - self.gone;
         let (mut now, mut end, mut room) = ([0.0; 2], [0.0; 2], 0.0);
         for side in 0..2 {
@@ -210,7 +210,7 @@ impl Contacts {
     }
 
     /// Where a body is by now in the part of the step and how it moves.
-    fn path_of(&self, world: &World, body: usize) -> Path {
+    pub(super) fn path_of(&self, world: &World, body: usize) -> Path {
         let began = self.path_from_start(world, body);
         match self.rows.of(body as u32) {
             Some(row) => Fliers::path(&self.rows.rows[row as usize], &began.frame, began.pull),
@@ -224,7 +224,7 @@ impl Contacts {
     }
 
     /// Gives a body that has none a row, where it has come to by now.
-    fn join(&mut self, world: &mut World, body: usize, under_way: Option<f64>) {
+    pub(super) fn join(&mut self, world: &mut World, body: usize, under_way: Option<f64>) {
         if self.rows.of(body as u32).is_some() {
             return;
         }
@@ -233,7 +233,7 @@ impl Contacts {
         row.come(&change);
         let row = self.rows.rows.len() as u32 - 1;
         if self.gone > 0.0 {
-            self.book_ahead(world, row, self.gone);
+            self.book_ahead(world, row, (self.gone, true));
         }
         self.fliers.join(&mut self.rows, under_way.map(|h| (&self.pulls, h)));
     }

@@ -1,0 +1,363 @@
+//! Fast bodies: those that move by more than half their size within a sub-step.
+//!
+//! Touches are laid out for what faces each other as a step begins; what is fast may be past a corner and gone by its end. So
+//! fast bodies are taken before all others: each is followed along its flight to the first impact with anything that its way
+//! meets ([`crate::impact_time`] never steps over one), in the order of time, and becomes a touch there. What an impact makes
+//! fast is followed from then on.
+//!
+//! What is not fast stays where it is while another flies to it, and is only thought of as further on.
+
+use super::Contacts;
+use super::meeting::Two;
+use super::rows::{Row, SPIN, VX, VZ};
+use crate::bodies::{Bodies, Motion};
+use crate::broad_phase::bounds::sweep;
+use crate::broad_phase::met::Bounds;
+use crate::flight::{Path, Pull};
+use crate::world::World;
+
+/// Impacts in a sub-step at most, for every fast body.
+const MOST_STRIKES: usize = 64;
+
+/// Bodies come no further in a sub-step than this many times as far as in the one before, but by impacts.
+const MORE: f64 = 2.0;
+
+/// A pair meets no more often than this within that share of a step: corner after corner where it lands flat. What goes on coming
+/// is left to the pushes.
+const CORNERS: usize = 8;
+const AGAIN: f64 = 1e-9;
+
+/// A meeting foreseen, or one that has been.
+#[derive(Clone, Copy, Debug)]
+struct Meets {
+    /// From the start of the sub-step \[s\].
+    time: f64,
+    rects: (u32, u32),
+}
+
+/// What is known of whom a fast body meets next.
+#[derive(Clone, Copy, Debug)]
+enum Foreseen {
+    NotYet,
+    Nobody,
+    This(Meets),
+}
+
+/// The fast bodies of a sub-step.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Fast {
+    /// Their rows, and whom each meets next.
+    rows: Vec<u32>,
+    next: Vec<Foreseen>,
+    /// All that each sweeps over in what is left of the sub-step; and by row, whether it is one of them.
+    swept: Vec<Bounds>,
+    is_fast: Vec<bool>,
+    /// How far any mobile body may come in a sub-step at most, when last looked at \[m\].
+    farthest: f64,
+    /// Who has met, and when.
+    met: Vec<Meets>,
+    /// Rectangles that may be met.
+    near: Vec<u32>,
+    /// The bodies that are fast as the part of the step begins.
+    bodies: Vec<u32>,
+    is_near: Vec<bool>,
+    /// Touches of fast bodies that do not press, and whether they face each other still.
+    looked: Vec<(u32, bool)>,
+}
+
+impl Fast {
+    pub(super) fn bodies(&self) -> impl Iterator<Item = u32> {
+        self.bodies.iter().copied()
+    }
+}
+
+/// Whether a body that moves so for a time comes further than half its size.
+fn is_fast(bodies: &Bodies, body: usize, Motion { v, omega }: Motion, time: f64) -> bool {
+    (v.norm() + omega.abs() * bodies.reach(body)) * time > bodies.smallest_half(body)
+}
+
+impl Contacts {
+    /// Finds the bodies that are fast over sub-steps of that length and may come to others; whether there are any.
+    pub(super) fn find_fast(&mut self, world: &World, h: f64) -> bool {
+        let bodies = &world.bodies;
+        let Fast { bodies: fast, is_near, farthest, .. } = &mut self.fast;
+        fast.clear();
+        *farthest = 0.0;
+        for body in 0..bodies.len() {
+            let Motion { v, omega } = bodies.motion[body];
+            let far = (v.x.abs() + v.y.abs() + omega.abs() * self.farthest) * h;
+            *farthest = farthest.max(far);
+            if far > self.smallest && is_fast(bodies, body, bodies.motion[body], h) {
+                fast.push(body as u32);
+            }
+        }
+        if fast.is_empty() {
+            return false;
+        }
+        is_near.clear();
+        is_near.resize(bodies.len(), false);
+        for rect in self.search.near().iter().flat_map(|pair| [pair.0, pair.1]) {
+            is_near[self.search.body_of(rect)] = true;
+        }
+        fast.retain(|body| is_near[*body as usize]);
+        !fast.is_empty()
+    }
+
+    /// The touch of two rectangles, if they have one.
+    fn touch_of(&self, rects: (u32, u32)) -> Option<usize> {
+        let (found, later) = self.touches.split_at(self.found);
+        let of_later = || later.iter().position(|touch| touch.rects == rects).map(|at| self.found + at);
+        found.binary_search_by_key(&rects, |touch| touch.rects).ok().or_else(of_later)
+    }
+
+    /// Follows fast bodies through the sub-step.
+    pub(super) fn strike_fast(&mut self, world: &mut World, h: f64) {
+        self.fast.looked.clear();
+        if self.fast.farthest * MORE <= self.smallest {
+            return;
+        }
+        let Fast { rows, next, swept, met, is_fast, farthest, .. } = &mut self.fast;
+        rows.clear();
+        next.clear();
+        swept.clear();
+        met.clear();
+        is_fast.clear();
+        is_fast.resize(self.rows.rows.len(), false);
+        *farthest = 0.0;
+        for row in 0..self.rows.rows.len() as u32 {
+            self.follow_if_fast(world, row, h);
+        }
+        let mut strikes = 0;
+        while strikes < MOST_STRIKES * self.fast.rows.len() {
+            self.foresee(world, h);
+            let Some(next) = self.earliest() else {
+                self.look_at_fast(world);
+                break;
+            };
+            self.meet_fast(world, next, h);
+            strikes += 1;
+        }
+    }
+
+    /// Where fast bodies have been followed to, they stand otherwise than when the step began.
+    fn look_at_fast(&mut self, world: &World) {
+        for k in 0..self.touches.len() {
+            let (a, b) = self.of_touch[k];
+            if (self.is_fast(a) || self.is_fast(b)) && !self.presses_still(world, k) {
+                let found = self.look_again(world, k);
+                self.fast.looked.push((k as u32, found));
+            }
+        }
+    }
+
+    fn presses_still(&self, world: &World, k: usize) -> bool {
+        self.blocks.presses(k) && self.is_pressing(world, k, &self.paths_together(world, self.touches[k].rects).1)
+    }
+
+    /// Fast bodies have met all that they meet in the sub-step: what they do not touch now they are not pushed away from, and where
+    /// they turn fast a straight line says nothing of how deep they are by its end.
+    pub(super) fn leave_fast(&mut self) {
+        for at in 0..self.fast.looked.len() {
+            let (k, found) = self.fast.looked[at];
+            let (k, [Row(a), Row(b)]) = (k as usize, self.rows_now(k as usize));
+            for p in 0..2 {
+                self.blocks.part_nothing(k, p);
+                if !found || self.touches[k].state(p, &a, &b).0 > self.band {
+                    self.blocks.ask_nothing(k, p);
+                }
+            }
+        }
+    }
+
+    /// A row whose body is fast by now is followed.
+    fn follow_if_fast(&mut self, world: &World, row: u32, h: f64) {
+        let at = &self.rows.rows[row as usize].0;
+        let farthest = (at[VX].abs() + at[VZ].abs() + at[SPIN].abs() * self.farthest) * h;
+        self.fast.farthest = self.fast.farthest.max(farthest);
+        if farthest <= self.smallest || self.fast.is_fast.get(row as usize).is_some_and(|is_fast| *is_fast) {
+            return;
+        }
+        if self
+            .rows
+            .body_of(row)
+            .is_some_and(|body| is_fast(&world.bodies, body, self.rows.rows[row as usize].motion(), h))
+        {
+            let Fast { rows, next, swept, is_fast, .. } = &mut self.fast;
+            rows.push(row);
+            next.push(Foreseen::NotYet);
+            swept.push(Bounds([0.0; 4]));
+            is_fast.resize(self.rows.rows.len(), false);
+            is_fast[row as usize] = true;
+        }
+    }
+
+    /// An impact has changed a row's motion.
+    pub(super) fn note_speed(&mut self, row: u32, h: f64) {
+        let at = &self.rows.rows[row as usize].0;
+        let farthest = (at[VX].abs() + at[VZ].abs() + at[SPIN].abs() * self.farthest) * h;
+        self.fast.farthest = self.fast.farthest.max(farthest);
+    }
+
+    fn is_fast(&self, row: u32) -> bool {
+        self.fast.is_fast.get(row as usize).is_some_and(|is_fast| *is_fast)
+    }
+
+    /// Finds out whom fast bodies meet next, where that is not known.
+    fn foresee(&mut self, world: &mut World, h: f64) {
+        let unknown = |fast: &Fast, at: usize| matches!(fast.next[at], Foreseen::NotYet);
+        for at in 0..self.fast.rows.len() {
+            if unknown(&self.fast, at) {
+                self.fast.swept[at] = self.sweep_of(world, self.fast.rows[at], h);
+            }
+        }
+        for at in 0..self.fast.rows.len() {
+            if unknown(&self.fast, at) {
+                let found = self.next_of(world, at, h);
+                self.fast.next[at] = found.map_or(Foreseen::Nobody, Foreseen::This);
+            }
+        }
+    }
+
+    /// All that the body of a row sweeps over in what is left of the sub-step.
+    fn sweep_of(&self, world: &World, row: u32, h: f64) -> Bounds {
+        let nothing = Bounds([f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY]);
+        let Some(body) = self.rows.body_of(row) else { return nothing };
+        let (path, left) = (self.path_of(world, body), h - self.fliers.spent[row as usize]);
+        world.bodies.rects_of(body).iter().fold(nothing, |Bounds([x0, z0, x1, z1]), rect| {
+            let (low, high) = sweep(&path, rect, left);
+            Bounds([x0.min(low.x), z0.min(low.y), x1.max(high.x), z1.max(high.y)])
+        })
+    }
+
+    fn earliest(&self) -> Option<Meets> {
+        let all =
+            self.fast.next.iter().filter_map(|next| if let Foreseen::This(meets) = next { Some(*meets) } else { None });
+        all.reduce(|first, next| if next.time < first.time { next } else { first })
+    }
+
+    /// Whom one of the fast bodies meets next within the sub-step, as all fly by now.
+    fn next_of(&mut self, world: &mut World, at: usize, h: f64) -> Option<Meets> {
+        let row = self.fast.rows[at];
+        let body = self.rows.body_of(row)?;
+        let (spent, path) = (self.fliers.spent[row as usize], self.path_of(world, body));
+        let mut near = core::mem::take(&mut self.fast.near);
+        let mut first: Option<Meets> = None;
+        for rect in world.bodies.first_rect[body]..world.bodies.first_rect[body + 1] {
+            let (low, high) = sweep(&path, &world.bodies.rects[rect as usize], h - spent);
+            near.clear();
+            self.search.around(
+                (rect, Bounds([low.x, low.y, high.x, high.y])),
+                world.plan.broad_phase,
+                &mut near,
+                &mut world.work,
+            );
+            for (other, _) in
+                self.fast.rows.iter().zip(&self.fast.swept).filter(|(_, swept)| swept.meet(&self.fast.swept[at]))
+            {
+                let Some(other) = self.rows.body_of(*other).filter(|other| *other != body) else { continue };
+                if world.bodies.is_mobile(other) || world.bodies.is_mobile(body) {
+                    near.extend(world.bodies.first_rect[other]..world.bodies.first_rect[other + 1]);
+                }
+            }
+            near.sort_unstable();
+            near.dedup();
+            for other in &near {
+                let rects = (rect.min(*other), rect.max(*other));
+                let until = first.map_or(h, |first| first.time);
+                if let Some(time) = self.meets_fast(world, rects, until) {
+                    first = Some(Meets { time, rects });
+                }
+            }
+        }
+        self.fast.near = near;
+        first
+    }
+
+    /// When two rectangles meet, before a time of the sub-step.
+    fn meets_fast(&self, world: &mut World, rects: (u32, u32), until: f64) -> Option<f64> {
+        let (from, paths) = self.paths_together(world, rects);
+        if self.touch_of(rects).is_some_and(|k| self.is_pressing(world, k, &paths)) {
+            return None;
+        }
+        world.work.touches_sought += 1;
+        let time = from + self.two(world, rects).meet(&paths, until - from)?.0;
+        let soon = self.fast.met.iter().filter(|met| met.rects == rects && met.time + AGAIN * self.dt >= time);
+        (time < until && soon.count() < CORNERS).then_some(time)
+    }
+
+    /// Whether a touch has pressed and is still in touch.
+    fn is_pressing(&self, world: &World, k: usize, paths: &[Path; 2]) -> bool {
+        self.blocks.presses(k) && self.two(world, self.touches[k].rects).depth(paths) >= -self.band
+    }
+
+    /// Two rectangles, the earlier created first.
+    fn two<'a>(&self, world: &'a World, rects: (u32, u32)) -> Two<'a> {
+        Two::between(&world.bodies, [rects.0, rects.1].map(|rect| (self.search.body_of(rect), rect as usize)))
+    }
+
+    /// The bodies of two rectangles as they fly from a moment of the sub-step that both have come to, and which that is.
+    fn paths_together(&self, world: &World, rects: (u32, u32)) -> (f64, [Path; 2]) {
+        let bodies = [rects.0, rects.1].map(|rect| self.search.body_of(rect));
+        let spent = bodies.map(|body| self.rows.of(body as u32).map_or(0.0, |row| self.fliers.spent[row as usize]));
+        let from = spent[0].max(spent[1]);
+        (from, [0, 1].map(|k| self.path_ahead(world, bodies[k]).after(from - spent[k])))
+    }
+
+    /// How a body flies on from where it has come to: what is not fast and touches others is held by them.
+    fn path_ahead(&self, world: &World, body: usize) -> Path {
+        let path = self.path_of(world, body);
+        if self.is_held(body) { Path { pull: Pull::NONE, ..path } } else { path }
+    }
+
+    fn is_held(&self, body: usize) -> bool {
+        let Some(row) = self.rows.of(body as u32) else { return false };
+        self.rows.mobile_of(row).is_some_and(|at| self.rows.degree[at] > 0) && !self.is_fast(row)
+    }
+
+    /// Two bodies meet: they go where they do, and exchange motion.
+    fn meet_fast(&mut self, world: &mut World, next: Meets, h: f64) {
+        let bodies = [next.rects.0, next.rects.1].map(|rect| self.search.body_of(rect));
+        bodies.into_iter().for_each(|body| self.join(world, body, None));
+        let (from, paths) = self.paths_together(world, next.rects);
+        self.fast.met.push(next);
+        let two = self.two(world, next.rects);
+        let Some((after, manifold)) = two.meet(&paths, h - from) else {
+            self.forget(bodies);
+            return;
+        };
+        let touch = two.touch_at(&paths, after, &manifold);
+        for body in bodies {
+            self.fly_to(world, body, from + after);
+        }
+        let k = self.touch_of(next.rects).unwrap_or_else(|| self.add_touch(world, touch));
+        let moved = paths.map(|path| path.after(after));
+        let moved = if self.touches[k].a as usize == bodies[0] { moved } else { [moved[1], moved[0]] };
+        self.exchange(world, k, (&manifold, &moved), h);
+        self.look_again(world, k);
+        self.forget(bodies);
+        for row in bodies.map(|body| self.rows.of(body as u32)).into_iter().flatten() {
+            self.follow_if_fast(world, row, h);
+        }
+    }
+
+    /// A mobile body flies on to a time of the sub-step.
+    fn fly_to(&mut self, world: &mut World, body: usize, time: f64) {
+        let Some(row) = self.rows.of(body as u32).filter(|row| self.rows.mobile_of(*row).is_some()) else { return };
+        let (path, held) = (self.path_ahead(world, body), self.is_held(body));
+        let more = time - self.fliers.spent[row as usize];
+        self.fliers.go_on(&mut self.rows, row, &path, more);
+        self.book_ahead(world, row, (more, !held));
+    }
+
+    /// What was foreseen of these bodies holds no more.
+    fn forget(&mut self, bodies: [usize; 2]) {
+        let concerns = |rect: u32| bodies.contains(&self.search.body_of(rect));
+        for (row, next) in self.fast.rows.iter().zip(&mut self.fast.next) {
+            let own = self.rows.body_of(*row).is_some_and(|body| bodies.contains(&body));
+            let other = matches!(next, Foreseen::This(meets) if concerns(meets.rects.0) || concerns(meets.rects.1));
+            if own || other {
+                *next = Foreseen::NotYet;
+            }
+        }
+    }
+}
