@@ -2,7 +2,6 @@
 
 use super::Contacts;
 use super::rows::{X, Z};
-use super::sweep::{Arms, gather};
 use crate::area::Vec2;
 use crate::bodies::Motion;
 use crate::detect::manifold::Manifold;
@@ -110,20 +109,26 @@ impl Contacts {
         if push == [0.0; 2] && grip == 0.0 {
             return None;
         }
-        let rows = &self.rows.rows;
-        let arms = Arms::of(block, &gather::<Eight>(rows, &block.row_a), &gather::<Eight>(rows, &block.row_b));
-        let twists = |lever: [Eight; 2], along: Eight| {
+        let [a, b] = [block.row_a[lane], block.row_b[lane]].map(|row| &self.rows.rows[row as usize].0);
+        let (dx, dz) = (b[X] - a[X], b[Z] - a[Z]);
+        let (nx, nz) = (of(block.nx), of(block.nz));
+        // As `Arms::of` has it.
+        let (apart, slipped) = ((nx * dx + nz * dz) * 0.5, (nz * dx - nx * dz) * 0.5);
+        let twists = |lever: [Eight; 2], slipped: f64, along: f64| {
             let [first, second] = lever.map(of);
-            (first * push[0] + second * push[1], of(along) * grip)
+            ((first + slipped) * push[0] + (second + slipped) * push[1], along * grip)
         };
-        let n = Vec2::new(of(block.nx), of(block.nz));
+        let n = Vec2::new(nx, nz);
         let pair = [self.touches[touch].a as usize, self.touches[touch].b as usize];
         Some(Pressing {
             touch,
             pair,
             along: n * (push[0] + push[1]),
             across: Vec2::new(n.y, -n.x) * grip,
-            twists: [twists(arms.lever_a, arms.along_a), twists(arms.lever_b, arms.along_b)],
+            twists: [
+                twists(block.lever_a, slipped, of(block.along_a) - apart),
+                twists(block.lever_b, -slipped, of(block.along_b) + apart),
+            ],
         })
     }
 }

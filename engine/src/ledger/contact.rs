@@ -71,6 +71,9 @@ pub(crate) struct Pressing {
     pub(crate) twists: [(f64, f64); 2],
 }
 
+/// What a touch that presses books, no more.
+const PRESSED: [Cause; 4] = [Cause::Exchange, Cause::Restitution, Cause::Friction, Cause::FixedBodies];
+
 impl Ledger {
     /// Contacts are about to be solved, from that time on.
     pub(crate) fn open_contacts(&mut self, bodies: &Bodies, touches: usize, began: f64) {
@@ -211,10 +214,11 @@ impl Ledger {
             booked[cause].momentum_z += given.y;
             booked[cause].angular_momentum += cross(at[1] - at[0], p);
         }
-        Cause::ALL.iter().for_each(|cause| self.contact.rest.take(booked[*cause]));
-        self.book_all(&booked);
-        let all = &mut self.contact.by_touch[touch];
-        Cause::ALL.iter().for_each(|cause| all[*cause] += booked[*cause]);
+        for cause in PRESSED {
+            self.contact.rest.take(booked[cause]);
+            self.book(cause, booked[cause]);
+            self.contact.by_touch[touch][cause] += booked[cause];
+        }
     }
 
     /// All bodies and touches of a sub-step of that length are booked.

@@ -17,17 +17,24 @@ pub(super) struct Sum {
 impl Sum {
     pub(super) fn add(&mut self, term: f64) {
         let next = self.sum + term;
-        let (larger, smaller) = if self.sum.abs() >= term.abs() { (self.sum, term) } else { (term, self.sum) };
-        self.lost += (larger - next) + smaller;
+        let added = next - self.sum;
+        self.lost += (self.sum - (next - added)) + (term - added);
         self.sum = next;
     }
 
     /// Adds a b c.
-    fn add_product(&mut self, a: f64, b: f64, c: f64) {
+    fn add_product(&mut self, a: Split, b: Split, c: Split) {
         let (product, lost) = exact_product(a, b);
-        let (whole, rest) = exact_product(product, c);
+        let (whole, rest) = exact_product(Split::of(product), c);
         self.add(whole);
-        self.add(rest + lost * c);
+        self.add(rest + lost * c.whole);
+    }
+
+    /// Adds a b.
+    fn add_product_of_two(&mut self, a: Split, b: Split) {
+        let (product, lost) = exact_product(a, b);
+        self.add(product);
+        self.add(lost);
     }
 
     pub(super) fn value(self) -> f64 {
@@ -36,18 +43,34 @@ impl Sum {
 }
 
 /// A product and what it rounds away. Beyond the numbers that can be split nothing is known to be lost.
-fn exact_product(a: f64, b: f64) -> (f64, f64) {
-    let product = a * b;
-    let ((a_high, a_low), (b_high, b_low)) = (halves(a), halves(b));
-    let lost = ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low;
+fn exact_product(a: Split, b: Split) -> (f64, f64) {
+    let product = a.whole * b.whole;
+    let lost = ((a.high * b.high - product) + a.high * b.low + a.low * b.high) + a.low * b.low;
     (product, if lost.is_finite() { lost } else { 0.0 })
 }
 
 /// A number as the sum of two of 26 bits (Veltkamp 1968).
-fn halves(number: f64) -> (f64, f64) {
-    let shifted = number * 134_217_729.0; // 2²⁷ + 1
-    let high = shifted - (shifted - number);
-    (high, number - high)
+#[derive(Clone, Copy, Debug)]
+struct Split {
+    whole: f64,
+    high: f64,
+    low: f64,
+}
+
+impl Split {
+    fn of(whole: f64) -> Split {
+        let shifted = whole * 134_217_729.0; // 2²⁷ + 1
+        let high = shifted - (shifted - whole);
+        Split { whole, high, low: whole - high }
+    }
+
+    fn negative(self) -> Split {
+        Split { whole: -self.whole, high: -self.high, low: -self.low }
+    }
+
+    fn half(self) -> Split {
+        Split { whole: 0.5 * self.whole, high: 0.5 * self.high, low: 0.5 * self.low }
+    }
 }
 
 /// The four quantities, each such a sum.
@@ -66,16 +89,16 @@ impl Sums {
     /// Adds what a body has, or takes it away.
     pub(super) fn add_state(&mut self, Inertia { mass, moment }: Inertia, State { o, motion }: State, sign: f64) {
         let [energy, momentum_x, momentum_z, angular_momentum] = &mut self.0;
-        let (mass, moment) = (mass * sign, moment * sign);
-        let (v, omega) = (motion.v, motion.omega);
-        for (inertia, rate) in [(mass, v.x), (mass, v.y), (moment, omega)] {
-            energy.add_product(rate, rate, 0.5 * inertia);
+        let (mass, moment) = (Split::of(mass * sign), Split::of(moment * sign));
+        let (vx, vz, omega) = (Split::of(motion.v.x), Split::of(motion.v.y), Split::of(motion.omega));
+        for (inertia, rate) in [(mass, vx), (mass, vz), (moment, omega)] {
+            energy.add_product(rate, rate, inertia.half());
         }
-        momentum_x.add_product(v.x, mass, 1.0);
-        momentum_z.add_product(v.y, mass, 1.0);
-        angular_momentum.add_product(o.x, v.y, mass);
-        angular_momentum.add_product(o.y, v.x, -mass);
-        angular_momentum.add_product(omega, moment, 1.0);
+        momentum_x.add_product_of_two(vx, mass);
+        momentum_z.add_product_of_two(vz, mass);
+        angular_momentum.add_product(Split::of(o.x), vz, mass);
+        angular_momentum.add_product(Split::of(o.y), vx, mass.negative());
+        angular_momentum.add_product_of_two(omega, moment);
     }
 
     pub(super) fn add(&mut self, amounts: Amounts) {
@@ -123,9 +146,10 @@ mod tests {
     #[test]
     fn a_product_loses_nothing() {
         let a = 1.0 + f64::EPSILON;
-        assert_eq!(exact_product(a, a), (1.0 + 2.0 * f64::EPSILON, f64::EPSILON * f64::EPSILON));
-        assert_eq!(exact_product(1e300, 1e300), (f64::INFINITY, 0.0));
-        assert_eq!(exact_product(1e305, 2.0), (2e305, 0.0));
+        let product = |a: f64, b: f64| exact_product(Split::of(a), Split::of(b));
+        assert_eq!(product(a, a), (1.0 + 2.0 * f64::EPSILON, f64::EPSILON * f64::EPSILON));
+        assert_eq!(product(1e300, 1e300), (f64::INFINITY, 0.0));
+        assert_eq!(product(1e305, 2.0), (2e305, 0.0));
     }
 
     #[test]
