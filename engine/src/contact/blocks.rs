@@ -29,6 +29,8 @@ pub(super) struct Block {
     pub(super) grip: Eight,
     /// How fast each point is to part at least by the end of the sub-step \[m/s\].
     pub(super) asked: [Eight; 2],
+    /// How fast the owner slips along t by then where friction holds it, for its point turns with it ([`super::midway`]) \[m/s\].
+    pub(super) slips: Eight,
 }
 
 /// All blocks of a step, colour after colour.
@@ -231,6 +233,7 @@ impl Block {
             push: [zero; 2],
             grip: zero,
             asked: [zero; 2],
+            slips: zero,
         }
     }
 
@@ -250,6 +253,7 @@ impl Block {
         self.slip_back.0[lane] = touch.slip.0;
         self.slip_on.0[lane] = touch.slip.1;
         self.grip.0[lane] = touch.grip;
+        self.slips.0[lane] = 0.0;
         for k in 0..2 {
             self.lever_a[k].0[lane] = touch.lever_a[k];
             self.lever_b[k].0[lane] = touch.lever_b[k];

@@ -24,6 +24,7 @@ mod kept;
 mod loads;
 mod look;
 mod meeting;
+mod midway;
 mod pairs;
 mod part;
 #[cfg(test)]
@@ -57,7 +58,7 @@ use kept::Kept;
 use pairs::Pairs;
 use pulls::Pulls;
 use rest::Rest;
-use rows::Rows;
+use rows::{Row, Rows};
 use search::Search;
 use touch::Touch;
 use wake::Apart;
@@ -98,6 +99,8 @@ pub(crate) struct Contacts {
     fliers: Fliers,
     rest: Rest,
     hasten: Hasten,
+    /// How bodies are likely to move on the whole of the sub-step.
+    mean: Vec<Row>,
     /// What is laid aside while bodies are moved apart.
     aside: Kept,
     /// Rounds to be spent upon what stands still: fewer where they were in vain.
@@ -143,6 +146,7 @@ impl Contacts {
             fliers: Fliers::default(),
             rest: Rest::default(),
             hasten: Hasten::default(),
+            mean: Vec::new(),
             aside: Kept::default(),
             patience: solve::PATIENCE,
             pairs: Pairs::default(),

@@ -100,6 +100,7 @@ impl Work for Ask<'_> {
             for (k, gap) in gap.into_iter().enumerate() {
                 block.asked[k] = block.least[k] - gap - band;
             }
+            block.slips = Eight::ZERO;
         }
     }
 }

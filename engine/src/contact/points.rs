@@ -143,8 +143,10 @@ impl Points {
             *arms = [add(on_a, half), sub(on_b, half)];
         }
         let [first, second] = arms;
-        self.along_a = middle * (cross(first[0], t) + cross(second[0], t));
-        self.along_b = middle * (cross(first[1], t) + cross(second[1], t));
+        // Friction acts at the height of the nearer point: halfway from the face to it, not to the mean of both.
+        let nearer = Eight::all(0.25) * (self.gap[0] - self.gap[1]).abs();
+        self.along_a = middle * (cross(first[0], t) + cross(second[0], t)) + nearer;
+        self.along_b = middle * (cross(first[1], t) + cross(second[1], t)) + nearer;
         self.middle = add(roles.o, times(add(first[0], second[0]), middle));
         let beside = roles.half[0].min(roles.half[1]) + roles.owner_half[0].min(roles.owner_half[1]);
         self.lever_a = [cross(first[0], n), cross(second[0], n)];

@@ -204,7 +204,7 @@ fn improve(block: &Block, shared: &Response, a: &Lanes, b: &Lanes, from: &[Eight
     let [x1, x2] = shared.complement([q1, q2]);
     let mass = a[SHARED_MASS] + b[SHARED_MASS];
     let k = mass + a[SHARED_MOMENT] * block.along_a * block.along_a + b[SHARED_MOMENT] * block.along_b * block.along_b;
-    let slip = block.nz * ux - block.nx * uz + block.along_b * b[SPIN] - block.along_a * a[SPIN];
+    let slip = block.nz * ux - block.nx * uz + block.along_b * b[SPIN] - block.along_a * a[SPIN] - block.slips;
     let most = block.friction * (x1 + x2);
     let grip = (from[2] - slip * k.inverse()).min(most).max(-most);
     let change = [shared.k[0] * (x1 - from[0]), shared.k[1] * (x2 - from[1]), k * (grip - from[2])];

@@ -189,7 +189,7 @@ fn rub(block: &mut Block, arms: &Arms, (a, b): (&mut Lanes, &mut Lanes)) {
     let (turn_a, turn_b) = (a[INVERSE_MOMENT] * arms.along_a, b[INVERSE_MOMENT] * arms.along_b);
     let k = mass + turn_a * arms.along_a + turn_b * arms.along_b;
     let (ux, uz) = (b[VX] - a[VX], b[VZ] - a[VZ]);
-    let slip = block.nz * ux - block.nx * uz + arms.along_b * b[SPIN] - arms.along_a * a[SPIN];
+    let slip = block.nz * ux - block.nx * uz + arms.along_b * b[SPIN] - arms.along_a * a[SPIN] - block.slips;
     let most = block.friction * (block.push[0] + block.push[1]);
     let grip = (block.grip - slip * k.inverse()).min(most).max(-most);
     let more = grip - block.grip;

@@ -103,6 +103,8 @@ impl Touch {
         // `along` runs with t or against it.
         let with_t = manifold.face.place(reference.rect, 1.0) - manifold.face.place(reference.rect, 0.0);
         let slip = if frame_a.outward(with_t).dot(&t) > 0.0 { (w0 - e1, w1 - e0) } else { (e0 - w1, e1 - w0) };
+        // Friction acts at the height of the nearer point: halfway from the face to it, not to the mean of both.
+        let nearer = 0.25 * (first.2 - second.2).abs();
         let mut touch = Touch {
             rects: (0, 0),
             a: reference.body as u32,
@@ -115,8 +117,8 @@ impl Touch {
             gap: [first.2, second.2],
             lever_a: [cross(first.0, n), cross(second.0, n)],
             lever_b: [cross(first.1, n), cross(second.1, n)],
-            along_a: 0.5 * (cross(first.0, t) + cross(second.0, t)),
-            along_b: 0.5 * (cross(first.1, t) + cross(second.1, t)),
+            along_a: 0.5 * (cross(first.0, t) + cross(second.0, t)) + nearer,
+            along_b: 0.5 * (cross(first.1, t) + cross(second.1, t)) + nearer,
             slip,
             surface: Surface::of_pair(bodies.surface[reference.body], bodies.surface[owner.body]),
             middle: frame_a.o + (first.0 + second.0) * 0.5,
