@@ -21,6 +21,7 @@ mod find;
 mod flying;
 mod hasten;
 mod kept;
+mod landing;
 mod loads;
 mod look;
 mod meeting;
@@ -204,20 +205,40 @@ impl World {
 
     /// A part of a step, in so many sub-steps, to a time.
     fn solve_part(&mut self, contacts: &mut Contacts, dt: f64, substeps: u32, time: f64) {
+        self.look_ahead(contacts, dt, time);
+        let lands = if substeps == 1 { contacts.lands(self, dt) } else { None };
+        let Some(first) = lands else { return self.solve_found(contacts, (dt, substeps), time, 1.0) };
+        let left = dt - first;
+        self.set_out_on_courses(time - left, first);
+        contacts.lay_out(self, first);
+        self.solve_found(contacts, (first, 1), time - left, first / dt);
+        self.look_ahead(contacts, left, time);
+        self.solve_found(contacts, (left, 1), time, left / dt);
+    }
+
+    /// Touches are found and laid out for a part of a step.
+    fn look_ahead(&mut self, contacts: &mut Contacts, dt: f64, time: f64) {
         self.set_out_on_courses(time, dt);
         contacts.find(self, dt);
         contacts.lay_out(self, dt);
+    }
+
+    /// The same, with the touches laid out, where sub-steps are that share of whole ones.
+    fn solve_found(&mut self, contacts: &mut Contacts, (dt, substeps): (f64, u32), time: f64, share: f64) {
         contacts.open_books(self, time - dt);
         if !contacts.touches.is_empty() {
             let h = dt / f64::from(substeps);
-            contacts.begin_flights(self, h, 1.0);
+            contacts.begin_flights(self, h, share);
+            if share != 1.0 {
+                contacts.blocks.scale_pushes(share);
+            }
             for k in 0..substeps {
                 contacts.gone = f64::from(k) * h;
                 contacts.substep(self, h);
             }
             contacts.part_overlaps(self);
         }
-        contacts.settle(self, 1.0);
+        contacts.settle(self, 1.0 / share);
         self.fly_alone(contacts, dt);
         contacts.close_books(self, dt);
         for prescription in &self.movers.prescribed {

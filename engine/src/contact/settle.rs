@@ -27,6 +27,8 @@ impl Contacts {
             }
         }
         for k in 0..self.touches.len() {
+            // A force goes on over a longer time; an impact does not.
+            let share = if share > 1.0 && !self.is_force(k, self.dt) { 1.0 } else { share };
             let touch = &mut self.touches[k];
             let (push, grip) = self.blocks.pushes(k);
             (touch.push, touch.grip) = (push.map(|push| push * share), grip * share);
