@@ -153,6 +153,14 @@ impl Blocks {
             .map_or_else(Default::default, |(block, lane)| (block.push.map(|push| push.0[lane]), block.grip.0[lane]))
     }
 
+    /// A touch pushes so at that point alone, and holds with so much friction.
+    pub(super) fn set_pushes(&mut self, k: usize, p: usize, push: f64, grip: f64) {
+        if let Some((block, lane)) = self.lane_mut(k) {
+            block.push[p].0[lane] = push;
+            block.grip.0[lane] = grip;
+        }
+    }
+
     /// Whether a touch presses: it has done so in the sub-step before.
     pub(super) fn presses(&self, k: usize) -> bool {
         let ([one, two], _) = self.pushes(k);

@@ -36,6 +36,7 @@ mod rest;
 mod rows;
 mod search;
 mod settle;
+mod slide;
 mod solve;
 mod stand;
 mod strike;

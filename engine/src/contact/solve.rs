@@ -80,6 +80,9 @@ impl Contacts {
         } else {
             self.push_on(world, (h, scale), &budget);
         }
+        if turns {
+            self.slide();
+        }
         // A jam has no solution: pushes grow without end, and do harm once it gives way.
         if self.fliers.gained(&self.rows, self.reach) {
             self.begin_afresh();

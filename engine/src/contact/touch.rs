@@ -148,6 +148,11 @@ impl Touch {
         }
         (self.touching, self.met) = (last.touching, last.met);
         self.grip = last.grip;
+        if (self.count, last.count) == (1, 1) {
+            // The same corner, though it may by now be the other end of another edge.
+            self.push[0] = last.push[0];
+            return;
+        }
         for k in 0..self.count as usize {
             let same = last.ends.iter().position(|end| *end == self.ends[k]);
             if let Some(at) = same {
