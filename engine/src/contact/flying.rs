@@ -1,5 +1,6 @@
 //! How bodies in contact go on over a sub-step: what acts on them, and where that takes them.
 
+use super::midway::HALF;
 use super::pulls::Pulls;
 use super::rows::{INVERSE_MASS, INVERSE_MOMENT, Row, Rows, SPIN, TURN, VX, VZ, X, Z};
 use super::touch::Touch;
@@ -155,7 +156,11 @@ impl Fliers {
     /// How bodies are likely to move on the whole of a sub-step: if forces change their motions as they did in the one before.
     pub(super) fn foresee(&self, rows: &Rows, pulls: &Pulls, h: f64, mean: &mut Vec<Row>) {
         mean.clear();
-        mean.extend_from_slice(&rows.rows);
+        mean.extend(rows.rows.iter().zip(&self.spent).map(|(row, spent)| {
+            let mut row = *row;
+            row.0[HALF] = 0.5 * (h - spent);
+            row
+        }));
         for (k, flier) in self.fliers.iter().enumerate() {
             let (row, pull) = (&mut mean[rows.first() + k].0, pulls.on_mobile(rows.mobile[k] as usize));
             let [x, z, spin] = flier.carried;

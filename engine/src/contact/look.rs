@@ -33,11 +33,11 @@ impl Work for Look<'_> {
         let pulled = Eight::all(self.pulled);
         for block in self.blocks {
             let (a, b) = (gather::<W>(self.rows, &block.row_a), gather::<W>(self.rows, &block.row_b));
-            let gap = gaps(block, &a, &b);
+            let (gap, arms) = (gaps(block, &a, &b), Arms::of(block, &a, &b));
             let along_n = block.nx * (b[VX] - a[VX]) + block.nz * (b[VZ] - a[VZ]);
             #[allow(clippy::needless_range_loop)] // of several arrays
             for k in 0..2 {
-                let u = along_n + block.lever_b[k] * b[SPIN] - block.lever_a[k] * a[SPIN];
+                let u = along_n + arms.lever_b[k] * b[SPIN] - arms.lever_a[k] * a[SPIN];
                 let reach = (band - gap[k]).pick(Eight::ZERO, -(gap[k] * rate));
                 block.asked[k] = reach + (reach - u).min(Eight::ZERO).max(-pulled);
             }

@@ -13,13 +13,16 @@
 //! and is asked to part by as much more as its speed along them is less than along those at the start.
 
 use super::blocks::Block;
-use super::rows::{Row, SPIN, VX, VZ};
-use super::sweep::{Lanes, gather};
+use super::rows::{Row, SPIN, TURN, VX, VZ};
+use super::sweep::{Lanes, gaps, gather};
 use crate::lanes::Eight;
 use crate::width::Work;
 
 /// The middle of a chord lies as far within the arc, and the chord is shorter than it: by so many times the square of half its angle.
 const CHORD: f64 = 2.0 / 3.0;
+
+/// In rows of mean motions the turn's place holds half the time that is left of the sub-step \[s\].
+pub(super) const HALF: usize = TURN;
 
 /// Turns and moves the touches on by half a sub-step.
 pub(super) struct Midway<'a> {
@@ -28,8 +31,8 @@ pub(super) struct Midway<'a> {
     /// The same as they are likely to move on the whole.
     pub(super) mean: &'a [Row],
     pub(super) blocks: &'a mut [Block],
-    /// Half the sub-step \[s\].
-    pub(super) half: f64,
+    /// Points with gaps up to this touch \[m\].
+    pub(super) band: f64,
     /// What gravity does in the sub-step, some times over \[m/s\]: more is not asked.
     pub(super) pulled: f64,
 }
@@ -39,14 +42,15 @@ impl Work for Midway<'_> {
 
     #[inline(always)]
     fn run<const W: usize>(self) {
-        let (half, pulled) = (Eight::all(self.half), Eight::all(self.pulled));
+        let (band, pulled) = (Eight::all(self.band), Eight::all(self.pulled));
         for block in self.blocks {
             let (a, b) = (gather::<W>(self.rows, &block.row_a), gather::<W>(self.rows, &block.row_b));
             let (mean_a, mean_b) = (gather::<W>(self.mean, &block.row_a), gather::<W>(self.mean, &block.row_b));
             let before = Speeds::of(block, &a, &b);
             let struck = [0, 1].map(|k| block.asked[k] - before.along_n[k]);
             let lands = struck[0].max(struck[1]) - pulled;
-            turn(block, &mean_a, &mean_b, lands.pick(Eight::ZERO, half));
+            let presses = presses(block, &gaps(block, &a, &b), band).map(|presses| lands.pick(Eight::ZERO, presses));
+            turn(block, &mean_a, &mean_b, presses);
             let now = Speeds::of(block, &a, &b);
             for k in 0..2 {
                 block.asked[k] = block.asked[k] + (before.along_n[k] - now.along_n[k]).min(pulled).max(-pulled);
@@ -76,13 +80,19 @@ impl Speeds {
     }
 }
 
-/// The point is the owner's and turns with it, the normal turns with the reference. In the directions t and n an arm is
-/// (lever, −along); both levers go on leading to the same place.
+/// How hard each point presses, or whether it is about to: where nothing does yet, what touches.
 #[inline(always)]
-fn turn(block: &mut Block, a: &Lanes, b: &Lanes, half: Eight) {
-    let sum = block.push[0] + block.push[1];
-    // Where nothing presses nothing is turned.
-    let half = (-sum).pick(Eight::ZERO, half);
+fn presses(block: &Block, gap: &[Eight; 2], band: Eight) -> [Eight; 2] {
+    let none = -(block.push[0] + block.push[1]);
+    [0, 1].map(|k| none.pick((band - gap[k]).pick(Eight::all(1.0), Eight::ZERO), block.push[k]))
+}
+
+/// The point is the owner's and turns with it, the normal turns with the reference. In the directions t and n an arm is
+/// (lever, −along); both levers go on leading to the same place. Where nothing presses nothing is turned.
+#[inline(always)]
+fn turn(block: &mut Block, a: &Lanes, b: &Lanes, presses: [Eight; 2]) {
+    let sum = presses[0] + presses[1];
+    let half = (-sum).pick(Eight::ZERO, a[HALF].min(b[HALF]));
     let (turn_a, turn_b) = (half * a[SPIN], half * b[SPIN]);
     // From one end of an arc to the other leads a chord.
     let keep = Eight::all(1.0) - Eight::all(CHORD) * turn_b * turn_b;
@@ -90,14 +100,14 @@ fn turn(block: &mut Block, a: &Lanes, b: &Lanes, half: Eight) {
     let (passed, parted) = (block.nz * x - block.nx * z, block.nx * x + block.nz * z);
     let apart = block.along_b - block.along_a + parted;
     let beside = block.lever_a[0] - block.lever_b[0] + passed;
-    let presses = (block.push[0] * block.lever_b[0] + block.push[1] * block.lever_b[1])
+    let at = (presses[0] * block.lever_b[0] + presses[1] * block.lever_b[1])
         * (-sum).pick(Eight::all(1.0), sum).inverse();
     let along = block.along_b;
     let arm = |lever: Eight| {
         let (on, down) = (keep * lever + turn_b * along, keep * along - turn_b * lever);
         (on - turn_a * down, turn_a * on + down)
     };
-    let (_, along_b) = arm(presses);
+    let (_, along_b) = arm(at);
     for k in 0..2 {
         let (lever, _) = arm(block.lever_b[k]);
         block.lever_a[k] = block.lever_a[k] - block.lever_b[k] + passed + lever + turn_a * apart;

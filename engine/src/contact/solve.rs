@@ -98,7 +98,7 @@ impl Contacts {
     fn turn_midway(&mut self, h: f64, pulled: f64) {
         self.fliers.foresee(&self.rows, &self.pulls, h, &mut self.mean);
         let (rows, mean, blocks) = (&self.rows.rows[..], &self.mean[..], &mut self.blocks.blocks[..]);
-        self.width.run(Midway { rows, mean, blocks, half: 0.5 * h, pulled });
+        self.width.run(Midway { rows, mean, blocks, band: self.band, pulled });
     }
 
     /// Improves all touches of a scene that moves, to the scale of velocities that count \[m/s\].
