@@ -46,14 +46,19 @@ impl Work for Midway<'_> {
         for block in self.blocks {
             let (a, b) = (gather::<W>(self.rows, &block.row_a), gather::<W>(self.rows, &block.row_b));
             let (mean_a, mean_b) = (gather::<W>(self.mean, &block.row_a), gather::<W>(self.mean, &block.row_b));
-            let before = Speeds::of(block, &a, &b);
+            let [before, likely] = [(&a, &b), (&mean_a, &mean_b)].map(|(a, b)| Speeds::of(block, a, b));
             let struck = [0, 1].map(|k| block.asked[k] - before.along_n[k]);
             let lands = struck[0].max(struck[1]) - pulled;
-            let presses = presses(block, &gaps(block, &a, &b), band).map(|presses| lands.pick(Eight::ZERO, presses));
+            let gap = gaps(block, &a, &b);
+            let presses = presses(block, &gap, band).map(|presses| lands.pick(Eight::ZERO, presses));
             turn(block, &mean_a, &mean_b, presses);
-            let now = Speeds::of(block, &a, &b);
+            let [now, then] = [(&a, &b), (&mean_a, &mean_b)].map(|(a, b)| Speeds::of(block, a, b));
             for k in 0..2 {
-                block.asked[k] = block.asked[k] + (before.along_n[k] - now.along_n[k]).min(pulled).max(-pulled);
+                let less = before.along_n[k] - now.along_n[k];
+                let comes = (less - (likely.along_n[k] - then.along_n[k])) * Eight::all(-2.0);
+                let back = (-before.along_n[k]).min(comes).max(Eight::ZERO);
+                let back = (band - gap[k]).pick(back, Eight::ZERO);
+                block.asked[k] = block.asked[k] + back + less.min(pulled).max(-pulled);
             }
             // What little it slips with friction, not against it, it slips back.
             let back = (-(before.along_t * block.grip)).pick(Eight::ZERO, before.along_t);
@@ -100,8 +105,8 @@ fn turn(block: &mut Block, a: &Lanes, b: &Lanes, presses: [Eight; 2]) {
     let (passed, parted) = (block.nz * x - block.nx * z, block.nx * x + block.nz * z);
     let apart = block.along_b - block.along_a + parted;
     let beside = block.lever_a[0] - block.lever_b[0] + passed;
-    let at = (presses[0] * block.lever_b[0] + presses[1] * block.lever_b[1])
-        * (-sum).pick(Eight::all(1.0), sum).inverse();
+    let at =
+        (presses[0] * block.lever_b[0] + presses[1] * block.lever_b[1]) * (-sum).pick(Eight::all(1.0), sum).inverse();
     let along = block.along_b;
     let arm = |lever: Eight| {
         let (on, down) = (keep * lever + turn_b * along, keep * along - turn_b * lever);

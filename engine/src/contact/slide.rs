@@ -90,7 +90,8 @@ impl Contacts {
             return;
         }
         let (x, z) = (nx * dp + nz * dg, nz * dp - nx * dg);
-        for (row, sign, twist) in [(row_a, -1.0, lever_a * dp + along_a * dg), (row_b, 1.0, lever_b * dp + along_b * dg)]
+        for (row, sign, twist) in
+            [(row_a, -1.0, lever_a * dp + along_a * dg), (row_b, 1.0, lever_b * dp + along_b * dg)]
         {
             let row = &mut rows[row as usize].0;
             row[VX] += sign * row[INVERSE_MASS] * x;
