@@ -5,6 +5,7 @@
 
 use super::rows::{IDLE, Rows};
 use super::touch::{FAR, Touch};
+use crate::area::Vec2;
 use crate::lanes::{Eight, LANES};
 
 /// Eight touches, a lane each.
@@ -159,6 +160,12 @@ impl Blocks {
             block.push[p].0[lane] = push;
             block.grip.0[lane] = grip;
         }
+    }
+
+    /// Along what a touch has pushed: its normal, or what that has turned to midway through the sub-step.
+    pub(super) fn normal(&self, k: usize, touch: &Touch) -> Vec2 {
+        let now = self.lane(k).map_or(touch.n, |(block, lane)| Vec2::new(block.nx.0[lane], block.nz.0[lane]));
+        if now == touch.n { now } else { now.normalize() }
     }
 
     /// Whether a touch presses: it has done so in the sub-step before.

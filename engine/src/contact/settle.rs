@@ -37,7 +37,7 @@ impl Contacts {
             let is_new = pressed && !touch.touching && was_open && self.lonely.binary_search(&(k as u32)).is_err();
             touch.touching = pressed;
             if is_new {
-                let (point, normal) = (touch.middle, touch.n);
+                let (point, normal) = (touch.middle, self.blocks.normal(k, touch));
                 if let Some(ledger) = &mut world.ledger {
                     ledger.enter_touch(k);
                 }
