@@ -14,6 +14,10 @@ const A_HANDFUL: usize = 32;
 /// A moment nearer to an end of the sub-step than this share of it is that end.
 const NEAR: f64 = 1e-3;
 
+/// The moment is taken to be so much of the time sooner than foreseen: what is left of a gap is closed in the impact, but what has
+/// landed already would push too early.
+const EARLY: f64 = 1e-4;
+
 impl Contacts {
     /// How long it is until the first point lands, if that is within the sub-step \[s\].
     pub(super) fn lands(&mut self, world: &World, h: f64) -> Option<f64> {
@@ -57,7 +61,7 @@ impl Contacts {
             let square = u * u - 2.0 * bends * gap;
             if gap > self.band && u < 0.0 && square >= 0.0 { 2.0 * gap / (square.sqrt() - u) } else { f64::INFINITY }
         });
-        points.fold(f64::INFINITY, f64::min) * (1.0 - NEAR)
+        points.fold(f64::INFINITY, f64::min) * (1.0 - EARLY)
     }
 
     /// Whether what a touch pushed was a force: none of its bodies changed its motion by an impact.

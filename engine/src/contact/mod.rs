@@ -7,7 +7,8 @@
 //! | sub-step: impacts, of bodies that touch no other and in crowds | [`pairs`], [`strike`] |
 //! | what an impact or a push sets against others that were apart | [`wake`] |
 //! | sub-step: what acts on bodies over it | [`Fliers::set_out`](flying::Fliers::set_out) |
-//! | sub-step: pushes and friction at every touch | [`solve`], [`sweep`], [`hasten`], [`rest`] |
+//! | sub-step: few touches are taken as they are midway through it, and what lands parts it in two | [`midway`], [`landing`] |
+//! | sub-step: pushes and friction at every touch | [`solve`], [`sweep`], [`hasten`], [`rest`], [`slide`] |
 //! | sub-step: bodies go on | [`Fliers::arrive`](flying::Fliers::arrive) |
 //! | the step ends: bodies take their places, touches remember | [`Contacts::settle`] |
 //!
