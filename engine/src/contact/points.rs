@@ -69,6 +69,8 @@ struct Point {
     depth: Eight,
     /// Whether it is near enough and not beside the face.
     counts: Flag,
+    /// Whether it is where the edge passes an end of the face.
+    cut: Flag,
 }
 
 /// Eight touches laid out.
@@ -82,6 +84,7 @@ pub(super) struct Points {
     passed: Flag,
     best: Best,
     n: Pair,
+    cut: Flag,
     gap: [Eight; 2],
     lever_a: [Eight; 2],
     lever_b: [Eight; 2],
@@ -119,6 +122,7 @@ impl Points {
             passed: (-any).min(at_least(best.depth, zero)),
             best,
             n,
+            cut: points[0].cut.max(points[1].cut),
             gap: [-points[0].depth, -points[1].depth],
             lever_a: [zero; 2],
             lever_b: [zero; 2],
@@ -184,6 +188,7 @@ impl Points {
             n: Vec2::new(self.n[0].0[k], self.n[1].0[k]),
             ends: [swapped, if has_two { 1 } else { u8::MAX }],
             count: if has_two { 2 } else { 1 },
+            cut: is(&self.cut),
             gap: [self.gap[0].0[k], self.gap[1].0[k]],
             lever_a: [self.lever_a[0].0[k], self.lever_a[1].0[k]],
             lever_b: [self.lever_b[0].0[k], self.lever_b[1].0[k]],
@@ -207,6 +212,7 @@ fn choose(flag: Flag, yes: &Point, no: &Point) -> Point {
         on_face: pick(flag, yes.on_face, no.on_face),
         depth: flag.pick(yes.depth, no.depth),
         counts: no.counts,
+        cut: flag.pick(yes.cut, no.cut),
     }
 }
 
@@ -246,7 +252,8 @@ impl Line {
         let (before, after) = (less(t, self.least), less(self.greatest, t));
         let limit = before.pick(self.least, self.greatest);
         let share = over(limit - t, until - t).max(Eight::ZERO).min(Eight::all(1.0));
-        let share = before.max(after).pick(share, Eight::ZERO);
+        let cut = before.max(after);
+        let share = cut.pick(share, Eight::ZERO);
         let p = add(place, times(sub(other, place), share));
         let vertex = add(near, times(sub(far, near), share));
         let across = self.across_x.pick(p[0], p[1]);
@@ -254,7 +261,7 @@ impl Line {
         let on_face = [self.across_x.pick(self.at, p[0]), self.across_x.pick(p[1], self.at)];
         let (at, slack) = (self.along(seen.place(vertex)), Eight::all(1e-9) * (self.greatest - self.least));
         let within = at_least(at, self.least - slack).min(at_least(self.greatest + slack, at));
-        Point { vertex, on_face, depth, counts: at_least(depth, -margin).min(within) }
+        Point { vertex, on_face, depth, counts: at_least(depth, -margin).min(within), cut }
     }
 
     /// How far the owner may slip along t, backward and forward, before its edge leaves the face.
