@@ -32,8 +32,8 @@ pub(super) struct Block {
     pub(super) asked: [Eight; 2],
     /// How fast the owner slips along t by then where friction holds it, for its point turns with it ([`super::midway`]) \[m/s\].
     pub(super) slips: Eight,
-    /// 1 where all points are corners of the owner's, else 0.
-    pub(super) own: Eight,
+    /// 1 where a point is no corner of the owner's, else 0.
+    pub(super) cut: [Eight; 2],
 }
 
 /// All blocks of a step, colour after colour.
@@ -251,7 +251,7 @@ impl Block {
             grip: zero,
             asked: [zero; 2],
             slips: zero,
-            own: zero,
+            cut: [zero; 2],
         }
     }
 
@@ -272,7 +272,6 @@ impl Block {
         self.slip_on.0[lane] = touch.slip.1;
         self.grip.0[lane] = touch.grip;
         self.slips.0[lane] = 0.0;
-        self.own.0[lane] = if touch.cut { 0.0 } else { 1.0 };
         for k in 0..2 {
             self.lever_a[k].0[lane] = touch.lever_a[k];
             self.lever_b[k].0[lane] = touch.lever_b[k];
@@ -280,6 +279,7 @@ impl Block {
             self.gap[k].0[lane] = gap;
             self.least[k].0[lane] = (gap * keep).min(0.0);
             self.push[k].0[lane] = touch.push[k];
+            self.cut[k].0[lane] = f64::from(u8::from(touch.cut[k]));
         }
     }
 }

@@ -97,7 +97,8 @@ fn presses(block: &Block, gap: &[Eight; 2], band: Eight) -> [Eight; 2] {
 #[inline(always)]
 fn turn(block: &mut Block, a: &Lanes, b: &Lanes, presses: [Eight; 2]) {
     let sum = presses[0] + presses[1];
-    let half = (-sum).pick(Eight::ZERO, a[HALF].min(b[HALF]) * block.own);
+    let cut = presses[0] * block.cut[0] + presses[1] * block.cut[1];
+    let half = (-sum).pick(Eight::ZERO, (-cut).pick(a[HALF].min(b[HALF]), Eight::ZERO));
     let (turn_a, turn_b) = (half * a[SPIN], half * b[SPIN]);
     // From one end of an arc to the other leads a chord.
     let keep = Eight::all(1.0) - Eight::all(CHORD) * turn_b * turn_b;

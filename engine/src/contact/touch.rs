@@ -36,8 +36,8 @@ pub(crate) struct Touch {
     /// Which end of the owner's edge each point is, whole or cut, and how many points there are.
     pub(super) ends: [u8; 2],
     pub(super) count: u8,
-    /// Whether a point is no corner of the owner's but where its edge passes an end of the face: it does not turn with the owner.
-    pub(super) cut: bool,
+    /// Which points are no corners of the owner's but where its edge passes an end of the face: they do not turn with the owner.
+    pub(super) cut: [bool; 2],
     /// Gaps at the start of the step, negative where they overlap \[m\].
     pub(super) gap: [f64; 2],
     /// r × n of both points on both bodies, and r × t \[m\].
@@ -116,7 +116,7 @@ impl Touch {
             n,
             ends: [0, 1],
             count: manifold.points().len() as u8,
-            cut: manifold.points().iter().any(|point| point.feature > 1),
+            cut: [0, 1].map(|k| manifold.points().get(k).is_some_and(|point| point.feature > 1)),
             gap: [first.2, second.2],
             lever_a: [cross(first.0, n), cross(second.0, n)],
             lever_b: [cross(first.1, n), cross(second.1, n)],
