@@ -33,7 +33,8 @@ impl Work for Look<'_> {
         let pulled = Eight::all(self.pulled);
         for block in self.blocks {
             let (a, b) = (gather::<W>(self.rows, &block.row_a), gather::<W>(self.rows, &block.row_b));
-            let (gap, arms) = (gaps(block, &a, &b), Arms::of(block, &a, &b));
+            let gap = gaps(block, &a, &b);
+            let arms = if self.pulled > 0.0 { Arms::of(block, &a, &b) } else { Arms::at_first(block) };
             let along_n = block.nx * (b[VX] - a[VX]) + block.nz * (b[VZ] - a[VZ]);
             #[allow(clippy::needless_range_loop)] // of several arrays
             for k in 0..2 {

@@ -13,7 +13,7 @@
 //! and is asked to part by as much more as its speed along them is less than along those at the start.
 
 use super::blocks::Block;
-use super::rows::{Row, SPIN, TURN, VX, VZ};
+use super::rows::{INVERSE_MASS, Row, SPIN, TURN, VX, VZ};
 use super::sweep::{Lanes, gaps, gather};
 use crate::lanes::Eight;
 use crate::width::Work;
@@ -93,12 +93,14 @@ fn presses(block: &Block, gap: &[Eight; 2], band: Eight) -> [Eight; 2] {
 }
 
 /// The point is the owner's and turns with it, the normal turns with the reference. In the directions t and n an arm is
-/// (lever, −along); both levers go on leading to the same place. Where nothing presses nothing is turned.
+/// (lever, −along); both levers go on leading to the same place. Where nothing presses nothing is turned;
+/// nor where the face is a mobile body's.
 #[inline(always)]
 fn turn(block: &mut Block, a: &Lanes, b: &Lanes, presses: [Eight; 2]) {
     let sum = presses[0] + presses[1];
     let cut = presses[0] * block.cut[0] + presses[1] * block.cut[1];
-    let half = (-sum).pick(Eight::ZERO, (-cut).pick(a[HALF].min(b[HALF]), Eight::ZERO));
+    let follows = (-cut).min(-a[INVERSE_MASS]);
+    let half = (-sum).pick(Eight::ZERO, follows.pick(a[HALF].min(b[HALF]), Eight::ZERO));
     let (turn_a, turn_b) = (half * a[SPIN], half * b[SPIN]);
     // From one end of an arc to the other leads a chord.
     let keep = Eight::all(1.0) - Eight::all(CHORD) * turn_b * turn_b;

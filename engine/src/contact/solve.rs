@@ -61,7 +61,7 @@ impl Contacts {
         self.look(0, h, flying::FORCEFUL * pulled);
         self.leave_clear();
         let fastest = self.rows.fastest();
-        let turns = h == self.dt && fastest > STILL * pulled;
+        let turns = h == self.dt && pulled > 0.0 && fastest > STILL * pulled;
         if turns {
             self.turn_midway(h, flying::FORCEFUL * pulled);
         }

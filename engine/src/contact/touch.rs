@@ -151,7 +151,7 @@ impl Touch {
         }
         (self.touching, self.met) = (last.touching, last.met);
         self.grip = last.grip;
-        if (self.count, last.count) == (1, 1) {
+        if (self.count, last.count) == (1, 1) && !self.cut[0] && !last.cut[0] {
             // The same corner, though it may by now be the other end of another edge.
             self.push[0] = last.push[0];
             return;
