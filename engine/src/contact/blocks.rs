@@ -5,6 +5,7 @@
 
 use super::rows::{IDLE, Rows};
 use super::touch::{FAR, Touch};
+use crate::area::Vec2;
 use crate::lanes::{Eight, LANES};
 
 /// Eight touches, a lane each.
@@ -29,6 +30,10 @@ pub(super) struct Block {
     pub(super) grip: Eight,
     /// How fast each point is to part at least by the end of the sub-step \[m/s\].
     pub(super) asked: [Eight; 2],
+    /// How fast the owner slips along t by then where friction holds it, for its point turns with it ([`super::midway`]) \[m/s\].
+    pub(super) slips: Eight,
+    /// 1 where a point is no corner of the owner's, else 0.
+    pub(super) cut: [Eight; 2],
 }
 
 /// All blocks of a step, colour after colour.
@@ -156,6 +161,20 @@ impl Blocks {
             .map_or_else(Default::default, |(block, lane)| (block.push.map(|push| push.0[lane]), block.grip.0[lane]))
     }
 
+    /// A touch pushes so at that point alone, and holds with so much friction.
+    pub(super) fn set_pushes(&mut self, k: usize, p: usize, push: f64, grip: f64) {
+        if let Some((block, lane)) = self.lane_mut(k) {
+            block.push[p].0[lane] = push;
+            block.grip.0[lane] = grip;
+        }
+    }
+
+    /// Along what a touch has pushed: its normal, or what that has turned to midway through the sub-step.
+    pub(super) fn normal(&self, k: usize, touch: &Touch) -> Vec2 {
+        let now = self.lane(k).map_or(touch.n, |(block, lane)| Vec2::new(block.nx.0[lane], block.nz.0[lane]));
+        if now == touch.n { now } else { now.normalize() }
+    }
+
     /// Whether a touch presses: it has done so in the sub-step before.
     pub(super) fn presses(&self, k: usize) -> bool {
         let ([one, two], _) = self.pushes(k);
@@ -243,6 +262,8 @@ impl Block {
             push: [zero; 2],
             grip: zero,
             asked: [zero; 2],
+            slips: zero,
+            cut: [zero; 2],
         }
     }
 
@@ -262,6 +283,7 @@ impl Block {
         self.slip_back.0[lane] = touch.slip.0;
         self.slip_on.0[lane] = touch.slip.1;
         self.grip.0[lane] = touch.grip;
+        self.slips.0[lane] = 0.0;
         for k in 0..2 {
             self.lever_a[k].0[lane] = touch.lever_a[k];
             self.lever_b[k].0[lane] = touch.lever_b[k];
@@ -269,6 +291,7 @@ impl Block {
             self.gap[k].0[lane] = gap;
             self.least[k].0[lane] = (gap * keep).min(0.0);
             self.push[k].0[lane] = touch.push[k];
+            self.cut[k].0[lane] = f64::from(u8::from(touch.cut[k]));
         }
     }
 }

@@ -33,11 +33,11 @@ impl Work for Look<'_> {
         for block in self.blocks {
             let (a, b) = (gather::<V>(self.rows, &block.row_a), gather::<V>(self.rows, &block.row_b));
             let gap = gaps(block, &a, &b);
+            let arms = if self.pulled > 0.0 { Arms::of(block, &a, &b) } else { Arms::at_first(block) };
             let [nx, nz] = normal::<V>(block);
             let along_n = nx * (b[VX] - a[VX]) + nz * (b[VZ] - a[VZ]);
-            let Arms { lever_a, lever_b, .. } = Arms::<V>::at_first(block);
             for k in 0..2 {
-                let u = along_n + lever_b[k] * b[SPIN] - lever_a[k] * a[SPIN];
+                let u = along_n + arms.lever_b[k] * b[SPIN] - arms.lever_a[k] * a[SPIN];
                 let reach = (band - gap[k]).pick(V::zero(), -(gap[k] * rate));
                 block.asked[k] = (reach + (reach - u).min(V::zero()).max(-pulled)).eight();
             }

@@ -100,6 +100,7 @@ impl Work for Ask<'_> {
             for k in 0..2 {
                 block.asked[k] = (least[k] - gap[k] - band).eight();
             }
+            block.slips = V::zero().eight();
         }
     }
 }

@@ -219,7 +219,7 @@ fn improve<V: Wide>(
     let [x1, x2] = shared.complement([q1, q2]);
     let mass = a[SHARED_MASS] + b[SHARED_MASS];
     let k = mass + a[SHARED_MOMENT] * along_a * along_a + b[SHARED_MOMENT] * along_b * along_b;
-    let slip = nz * ux - nx * uz + along_b * b[SPIN] - along_a * a[SPIN];
+    let slip = nz * ux - nx * uz + along_b * b[SPIN] - along_a * a[SPIN] - V::of(&block.slips.0);
     let most = V::of(&block.friction.0) * (x1 + x2);
     let grip = (from[2] - slip * k.inverse()).min(most).max(-most);
     let change = [shared.k[0] * (x1 - from[0]), shared.k[1] * (x2 - from[1]), k * (grip - from[2])];

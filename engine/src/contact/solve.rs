@@ -1,6 +1,7 @@
 //! A sub-step solved: pushes and friction at every touch that is laid out.
 
 use super::look::{Look, Warm};
+use super::midway::Midway;
 use super::rest::{Effort, Settled};
 use super::sweep::Sweep;
 use super::{Contacts, flying, rest, weights};
@@ -59,13 +60,17 @@ impl Contacts {
         let pulled = world.plan.gravity().norm() * h;
         self.look(0, h, flying::FORCEFUL * pulled);
         self.leave_clear();
+        let fastest = self.rows.fastest();
+        let turns = h == self.dt && pulled > 0.0 && fastest > STILL * pulled;
+        if turns {
+            self.turn_midway(h, flying::FORCEFUL * pulled);
+        }
         self.fliers.set_out(&mut self.rows, &self.pulls, h);
-        let fastest = self.fliers.fastest();
         let quiet = fastest <= QUIET * pulled;
         // Where nothing pulls, what counts is how fast things are.
         let scale = if pulled > 0.0 { pulled } else { fastest };
         let budget = if quiet { IN_QUIET } else { IN_MOTION };
-        if quiet {
+        if quiet && !turns {
             self.fliers.renew(&mut self.rows);
         } else {
             self.width.run(Warm { rows: &mut self.rows.rows, blocks: &self.blocks.blocks });
@@ -74,6 +79,9 @@ impl Contacts {
             self.settle_touches(world, h, pulled, fastest);
         } else {
             self.push_on(world, (h, scale), &budget);
+        }
+        if turns {
+            self.slide();
         }
         // A jam has no solution: pushes grow without end, and do harm once it gives way.
         if self.fliers.gained(&self.rows, self.reach) {
@@ -84,6 +92,13 @@ impl Contacts {
                 self.sweep_touches(world, FRESH_SWEEPS);
             }
         }
+    }
+
+    /// Touches that press are taken as they are midway through the sub-step.
+    fn turn_midway(&mut self, h: f64, pulled: f64) {
+        self.fliers.foresee(&self.rows, &self.pulls, h, &mut self.mean);
+        let (rows, mean, blocks) = (&self.rows.rows[..], &self.mean[..], &mut self.blocks.blocks[..]);
+        self.width.run(Midway { rows, mean, blocks, band: self.band, pulled });
     }
 
     /// Improves all touches of a scene that moves, to the scale of velocities that count \[m/s\].

@@ -197,6 +197,9 @@ impl Contacts {
         let [Row(a), Row(b)] = &self.rows_now(k);
         let pulled = self.pulled_together(touch);
         let (pushes, _) = self.blocks.pushes(k);
+        if touch.surface.restitution == 0.0 && pushes != [0.0; 2] {
+            return false; // it does not fly: what is to land is left to the pushes
+        }
         (0..touch.count as usize).filter(|p| pushes[*p] == 0.0).any(|p| {
             let (gap, u) = touch.state(p, a, b);
             // Turning bodies may come sooner than the straight line says: looked for with some room.

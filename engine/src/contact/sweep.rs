@@ -198,7 +198,7 @@ fn rub<V: Wide>(block: &mut Block, arms: &Arms<V>, (a, b): (&mut Lanes<V>, &mut 
     let (turn_a, turn_b) = (a[INVERSE_MOMENT] * arms.along_a, b[INVERSE_MOMENT] * arms.along_b);
     let k = mass + turn_a * arms.along_a + turn_b * arms.along_b;
     let ((ux, uz), [nx, nz]) = ((b[VX] - a[VX], b[VZ] - a[VZ]), normal::<V>(block));
-    let slip = nz * ux - nx * uz + arms.along_b * b[SPIN] - arms.along_a * a[SPIN];
+    let slip = nz * ux - nx * uz + arms.along_b * b[SPIN] - arms.along_a * a[SPIN] - V::of(&block.slips.0);
     let ([p1, p2], before) = (of::<V>(&block.push), V::of(&block.grip.0));
     let most = V::of(&block.friction.0) * (p1 + p2);
     let grip = (before - slip * k.inverse()).min(most).max(-most);

@@ -87,7 +87,9 @@ impl Apart {
         self.is_pushed.resize(rows.rows.len(), false);
         for row in [a, b] {
             let Some(k) = rows.mobile_of(row) else { continue };
-            if self.last[rows.mobile[k] as usize] != NONE && !core::mem::replace(&mut self.is_pushed[row as usize], true) {
+            if self.last[rows.mobile[k] as usize] != NONE
+                && !core::mem::replace(&mut self.is_pushed[row as usize], true)
+            {
                 self.pushed.push(row);
             }
         }
@@ -184,8 +186,7 @@ impl Contacts {
     fn may_meet(&mut self, world: &World, pair: usize, bodies: [usize; 2]) -> bool {
         let (one, two) = self.apart.pairs[pair];
         let [a, b] = [one, two].map(|rect| self.search.placed(&world.bodies, rect).0);
-        let (axis, gap) =
-            *self.apart.axes[pair].get_or_insert_with(|| widest_gap(a.frame, a.rect, b.frame, b.rect));
+        let (axis, gap) = *self.apart.axes[pair].get_or_insert_with(|| widest_gap(a.frame, a.rect, b.frame, b.rect));
         let left = self.dt - self.gone;
         let (mut now, mut end, mut room) = ([0.0; 2], [0.0; 2], 0.0);
         for side in 0..2 {
