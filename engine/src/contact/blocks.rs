@@ -30,16 +30,27 @@ pub(super) struct Block {
     pub(super) grip: Eight,
     /// How fast each point is to part at least by the end of the sub-step \[m/s\].
     pub(super) asked: [Eight; 2],
-    /// How fast the owner slips along t by then where friction holds it, for its point turns with it ([`super::midway`]) \[m/s\].
+}
+
+/// What more there is to a block of which the touches are taken as they are midway through the sub-step ([`super::midway`]).
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Turned {
+    /// How fast the owner slips along t by its end where friction holds it, for its point turns with it \[m/s\].
     pub(super) slips: Eight,
     /// 1 where a point is no corner of the owner's, else 0.
     pub(super) cut: [Eight; 2],
+}
+
+impl Turned {
+    const NOT: Turned = Turned { slips: Eight::ZERO, cut: [Eight::ZERO; 2] };
 }
 
 /// All blocks of a step, colour after colour.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Blocks {
     pub(super) blocks: Vec<Block>,
+    /// As many, or none where nothing is turned.
+    pub(super) turned: Vec<Turned>,
     /// The block and lane of each touch; `NOWHERE` of those that are left to impacts.
     pub(super) place: Vec<(u32, u8)>,
     /// How many touches are laid out.
@@ -81,6 +92,7 @@ impl Blocks {
         }
         self.blocks.clear();
         self.blocks.resize(begin as usize, Block::idle());
+        self.turned.clear();
         self.place.clear();
         for ((touch, rows), colour) in touches.iter().zip(of_touch).zip(&self.colour) {
             if *colour == LEFT {
@@ -100,6 +112,9 @@ impl Blocks {
         let open = self.more.filter(|lane| *lane < LANES && !self.blocks.last().is_some_and(|block| block.has(a, b)));
         let lane = open.unwrap_or_else(|| {
             self.blocks.push(Block::idle());
+            if !self.turned.is_empty() {
+                self.turned.push(Turned::NOT);
+            }
             0
         });
         self.more = Some(lane + 1);
@@ -135,6 +150,18 @@ impl Blocks {
     pub(super) fn set(&mut self, k: usize, touch: &Touch, rows: (u32, u32), keep: f64, band: f64) {
         if let Some((block, lane)) = self.lane_mut(k) {
             block.set(lane, touch, rows, keep, band);
+        }
+    }
+
+    /// The touches are about to be turned: none is yet.
+    pub(super) fn begin_turning(&mut self, touches: &[Touch]) {
+        self.turned.clear();
+        self.turned.resize(self.blocks.len(), Turned::NOT);
+        for (touch, (block, lane)) in touches.iter().zip(&self.place) {
+            let Some(turned) = self.turned.get_mut(*block as usize) else { continue };
+            for p in (0..2).filter(|p| touch.cut[*p]) {
+                turned.cut[p].0[*lane as usize] = 1.0;
+            }
         }
     }
 
@@ -262,8 +289,6 @@ impl Block {
             push: [zero; 2],
             grip: zero,
             asked: [zero; 2],
-            slips: zero,
-            cut: [zero; 2],
         }
     }
 
@@ -283,7 +308,6 @@ impl Block {
         self.slip_back.0[lane] = touch.slip.0;
         self.slip_on.0[lane] = touch.slip.1;
         self.grip.0[lane] = touch.grip;
-        self.slips.0[lane] = 0.0;
         for k in 0..2 {
             self.lever_a[k].0[lane] = touch.lever_a[k];
             self.lever_b[k].0[lane] = touch.lever_b[k];
@@ -291,7 +315,6 @@ impl Block {
             self.gap[k].0[lane] = gap;
             self.least[k].0[lane] = (gap * keep).min(0.0);
             self.push[k].0[lane] = touch.push[k];
-            self.cut[k].0[lane] = f64::from(u8::from(touch.cut[k]));
         }
     }
 }

@@ -12,7 +12,7 @@
 //! order only: the push turns the block by the lever of a moment ago. So each touch gets the levers and the normal it has midway,
 //! and is asked to part by as much more as its speed along them is less than along those at the start.
 
-use super::blocks::Block;
+use super::blocks::{Block, Turned};
 use super::rows::{INVERSE_MASS, Row, SPIN, TURN, VX, VZ};
 use super::sweep::{Arms, Lanes, gaps, gather, normal, of};
 use crate::lanes::Wide;
@@ -31,6 +31,7 @@ pub(super) struct Midway<'a> {
     /// The same as they are likely to move on the whole.
     pub(super) mean: &'a [Row],
     pub(super) blocks: &'a mut [Block],
+    pub(super) turned: &'a mut [Turned],
     /// Points with gaps up to this touch \[m\].
     pub(super) band: f64,
     /// What gravity does in the sub-step, some times over \[m/s\]: more is not asked.
@@ -43,7 +44,7 @@ impl Work for Midway<'_> {
     #[inline(always)]
     fn run<V: Wide>(self) {
         let (band, pulled) = (V::all(self.band), V::all(self.pulled));
-        for block in self.blocks {
+        for (block, turned) in self.blocks.iter_mut().zip(self.turned) {
             let (a, b) = (gather::<V>(self.rows, &block.row_a), gather::<V>(self.rows, &block.row_b));
             let (mean_a, mean_b) = (gather::<V>(self.mean, &block.row_a), gather::<V>(self.mean, &block.row_b));
             let (before, likely) = (Speeds::of(block, &a, &b), Speeds::of(block, &mean_a, &mean_b));
@@ -51,7 +52,8 @@ impl Work for Midway<'_> {
             let lands = (asked[0] - before.along_n[0]).max(asked[1] - before.along_n[1]) - pulled;
             let gap = gaps(block, &a, &b);
             let [first, second] = presses(block, &gap, band);
-            turn(block, &mean_a, &mean_b, [lands.pick(V::zero(), first), lands.pick(V::zero(), second)]);
+            let presses = [lands.pick(V::zero(), first), lands.pick(V::zero(), second)];
+            turn(block, &mean_a, &mean_b, presses, of(&turned.cut));
             let (now, then) = (Speeds::of(block, &a, &b), Speeds::of(block, &mean_a, &mean_b));
             for k in 0..2 {
                 let less = before.along_n[k] - now.along_n[k];
@@ -62,7 +64,7 @@ impl Work for Midway<'_> {
             }
             // What little it slips with friction, not against it, it slips back.
             let back = (-(before.along_t * V::of(&block.grip.0))).pick(V::zero(), before.along_t);
-            block.slips = (before.along_t - now.along_t - back).min(pulled).max(-pulled).eight();
+            turned.slips = (before.along_t - now.along_t - back).min(pulled).max(-pulled).eight();
         }
     }
 }
@@ -101,8 +103,8 @@ fn presses<V: Wide>(block: &Block, gap: &[V; 2], band: V) -> [V; 2] {
 /// (lever, −along); both levers go on leading to the same place. Where nothing presses nothing is turned;
 /// nor where the face is a mobile body's.
 #[inline(always)]
-fn turn<V: Wide>(block: &mut Block, a: &Lanes<V>, b: &Lanes<V>, presses: [V; 2]) {
-    let (one, zero, [nx, nz], cut) = (V::all(1.0), V::zero(), normal::<V>(block), of::<V>(&block.cut));
+fn turn<V: Wide>(block: &mut Block, a: &Lanes<V>, b: &Lanes<V>, presses: [V; 2], cut: [V; 2]) {
+    let (one, zero, [nx, nz]) = (V::all(1.0), V::zero(), normal::<V>(block));
     let Arms { lever_a, lever_b, along_a, along_b } = Arms::<V>::at_first(block);
     let sum = presses[0] + presses[1];
     let cut = presses[0] * cut[0] + presses[1] * cut[1];

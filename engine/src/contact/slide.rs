@@ -58,6 +58,8 @@ impl Contacts {
         let ([one, two], grip) = self.blocks.pushes(k);
         let Some((block, lane)) = self.blocks.lane(k).filter(|_| (one > 0.0) != (two > 0.0)) else { return };
         let p = usize::from(two > 0.0);
+        let slips_on =
+            self.blocks.turned.get(self.blocks.place[k].0 as usize).map_or(0.0, |turned| turned.slips.0[lane]);
         let (rows, (row_a, row_b)) = (&mut self.rows.rows, self.of_touch[k]);
         let arms = Arms::of(block, &gather::<Eight>(rows, &block.row_a), &gather::<Eight>(rows, &block.row_b));
         let levers = |p: usize| [arms.lever_a[p].0[lane], arms.lever_b[p].0[lane]];
@@ -75,7 +77,7 @@ impl Contacts {
         let slips = nz * ux - nx * uz + along_b * b[SPIN] - along_a * a[SPIN];
         let alone = Alone {
             parts: parts([lever_a, lever_b]) - block.asked[p].0[lane] - (to_push * push + across * grip),
-            slips: slips - block.slips.0[lane] - (across * push + to_grip * grip),
+            slips: slips - slips_on - (across * push + to_grip * grip),
             to_push,
             across,
             to_grip,
