@@ -13,7 +13,7 @@
 //! and is asked to part by as much more as its speed along them is less than along those at the start.
 
 use super::blocks::{Block, Turned};
-use super::rows::{INVERSE_MASS, Row, SPIN, TURN, VX, VZ};
+use super::rows::{INVERSE_MASS, Row, SPIN, TURN, VX, VZ, X, Z};
 use super::sweep::{Arms, Lanes, gaps, gather, normal, of};
 use crate::lanes::Wide;
 use crate::width::Work;
@@ -54,6 +54,9 @@ impl Work for Midway<'_> {
             let [first, second] = presses(block, &gap, band);
             let presses = [lands.pick(V::zero(), first), lands.pick(V::zero(), second)];
             turn(block, &mean_a, &mean_b, presses, of(&turned.cut));
+            // A body that has flown ahead to an impact stands as it did: what it has turned by then is not turned anew.
+            let (counted, from) = (gaps(block, &a, &b), of::<V>(&block.gap));
+            block.gap = [(from[0] + (gap[0] - counted[0])).eight(), (from[1] + (gap[1] - counted[1])).eight()];
             let (now, then) = (Speeds::of(block, &a, &b), Speeds::of(block, &mean_a, &mean_b));
             for k in 0..2 {
                 let less = before.along_n[k] - now.along_n[k];
@@ -79,7 +82,7 @@ impl<V: Wide> Speeds<V> {
     #[inline(always)]
     fn of(block: &Block, a: &Lanes<V>, b: &Lanes<V>) -> Speeds<V> {
         let ((ux, uz), [nx, nz]) = ((b[VX] - a[VX], b[VZ] - a[VZ]), normal::<V>(block));
-        let Arms { lever_a, lever_b, along_a, along_b } = Arms::<V>::at_first(block);
+        let Arms { lever_a, lever_b, along_a, along_b } = Arms::of(block, a, b);
         let along_n = nx * ux + nz * uz;
         Speeds {
             along_n: [
@@ -105,7 +108,7 @@ fn presses<V: Wide>(block: &Block, gap: &[V; 2], band: V) -> [V; 2] {
 #[inline(always)]
 fn turn<V: Wide>(block: &mut Block, a: &Lanes<V>, b: &Lanes<V>, presses: [V; 2], cut: [V; 2]) {
     let (one, zero, [nx, nz]) = (V::all(1.0), V::zero(), normal::<V>(block));
-    let Arms { lever_a, lever_b, along_a, along_b } = Arms::<V>::at_first(block);
+    let Arms { lever_a, lever_b, along_a, along_b } = Arms::of(block, a, b);
     let sum = presses[0] + presses[1];
     let cut = presses[0] * cut[0] + presses[1] * cut[1];
     let follows = (-cut).min(-a[INVERSE_MASS]);
@@ -120,12 +123,17 @@ fn turn<V: Wide>(block: &mut Block, a: &Lanes<V>, b: &Lanes<V>, presses: [V; 2],
     let at = (presses[0] * lever_b[0] + presses[1] * lever_b[1]) * (-sum).pick(one, sum).inverse();
     let down = keep * along_b - turn_b * at;
     let along = turn_a * (keep * at + turn_b * along_b) + down;
+    let [nx, nz] = [nx - turn_a * nz, nz + turn_a * nx];
+    // They count from where the bodies stood as the step began.
+    let (dx, dz) = (b[X] - a[X], b[Z] - a[Z]);
+    let (ahead, slipped) = ((nx * dx + nz * dz) * V::all(0.5), (nz * dx - nx * dz) * V::all(0.5));
     for k in 0..2 {
         let (on, down) = (keep * lever_b[k] + turn_b * along_b, keep * along_b - turn_b * lever_b[k]);
         let lever = on - turn_a * down;
-        block.lever_a[k] = (lever_a[k] - lever_b[k] + passed + lever + turn_a * apart).eight();
-        block.lever_b[k] = lever.eight();
+        block.lever_a[k] = (lever_a[k] - lever_b[k] + passed + lever + turn_a * apart - slipped).eight();
+        block.lever_b[k] = (lever + slipped).eight();
     }
-    (block.along_a, block.along_b) = ((along + turn_a * beside - apart).eight(), along.eight());
-    (block.nx, block.nz) = ((nx - turn_a * nz).eight(), (nz + turn_a * nx).eight());
+    block.along_a = (along + turn_a * beside - apart + ahead).eight();
+    block.along_b = (along - ahead).eight();
+    (block.nx, block.nz) = (nx.eight(), nz.eight());
 }

@@ -183,9 +183,9 @@ impl Touch {
         let apart = self.n.x * dx + self.n.y * dz;
         let slipped = self.n.y * dx - self.n.x * dz;
         for p in 0..2 {
-            self.gap[p] -= apart + self.lever_b[p] * b[TURN] - self.lever_a[p] * a[TURN];
             self.lever_a[p] -= 0.5 * slipped;
             self.lever_b[p] += 0.5 * slipped;
+            self.gap[p] -= apart + self.lever_b[p] * b[TURN] - self.lever_a[p] * a[TURN];
         }
         self.along_a += 0.5 * apart;
         self.along_b -= 0.5 * apart;
