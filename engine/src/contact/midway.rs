@@ -54,9 +54,10 @@ impl Work for Midway<'_> {
             let [first, second] = presses(block, &gap, band);
             let presses = [lands.pick(V::zero(), first), lands.pick(V::zero(), second)];
             turn(block, &mean_a, &mean_b, presses, of(&turned.cut));
-            // A body that has flown ahead to an impact stands as it did: what it has turned by then is not turned anew.
+            let less = ahead(block, (&a, &b), (&mean_a, &mean_b));
             let (counted, from) = (gaps(block, &a, &b), of::<V>(&block.gap));
-            block.gap = [(from[0] + (gap[0] - counted[0])).eight(), (from[1] + (gap[1] - counted[1])).eight()];
+            block.gap =
+                [(from[0] + (gap[0] - counted[0] - less)).eight(), (from[1] + (gap[1] - counted[1] - less)).eight()];
             let (now, then) = (Speeds::of(block, &a, &b), Speeds::of(block, &mean_a, &mean_b));
             for k in 0..2 {
                 let less = before.along_n[k] - now.along_n[k];
@@ -70,6 +71,14 @@ impl Work for Midway<'_> {
             turned.slips = (before.along_t - now.along_t - back).min(pulled).max(-pulled).eight();
         }
     }
+}
+
+/// A body that has flown ahead to an impact keeps the gaps it has there. The levers count from where it stood as the step began; what
+/// they have that way too much makes so much of the gaps in what is left of the sub-step.
+#[inline(always)]
+fn ahead<V: Wide>(block: &Block, (a, b): (&Lanes<V>, &Lanes<V>), (mean_a, mean_b): (&Lanes<V>, &Lanes<V>)) -> V {
+    let ((dx, dz), [nx, nz]) = ((b[X] - a[X], b[Z] - a[Z]), normal::<V>(block));
+    (nz * dx - nx * dz) * (mean_a[SPIN] * mean_a[HALF] + mean_b[SPIN] * mean_b[HALF])
 }
 
 /// How fast the owner's points move against the reference.
