@@ -44,6 +44,7 @@ impl<const SLIPPED: bool> Work for Look<'_, SLIPPED> {
             let arms = if SLIPPED { Arms::of(block, &a, &b) } else { Arms::at_first(block) };
             let [nx, nz] = normal::<V>(block);
             let along_n = nx * (b[VX] - a[VX]) + nz * (b[VZ] - a[VZ]);
+            #[allow(clippy::needless_range_loop)] // of several arrays
             for k in 0..2 {
                 let u = along_n + arms.lever_b[k] * b[SPIN] - arms.lever_a[k] * a[SPIN];
                 let reach = (band - gap[k]).pick(V::zero(), -(gap[k] * rate));
