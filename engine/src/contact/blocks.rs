@@ -5,6 +5,7 @@
 
 use super::rows::{IDLE, Rows};
 use super::touch::{FAR, Touch};
+use crate::area::Vec2;
 use crate::lanes::{Eight, LANES};
 
 /// Eight touches, a lane each.
@@ -31,10 +32,25 @@ pub(super) struct Block {
     pub(super) asked: [Eight; 2],
 }
 
+/// What more there is to a block of which the touches are taken as they are midway through the sub-step ([`super::midway`]).
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Turned {
+    /// How fast the owner slips along t by its end where friction holds it, for its point turns with it \[m/s\].
+    pub(super) slips: Eight,
+    /// 1 where a point is no corner of the owner's, else 0.
+    pub(super) cut: [Eight; 2],
+}
+
+impl Turned {
+    const NOT: Turned = Turned { slips: Eight::ZERO, cut: [Eight::ZERO; 2] };
+}
+
 /// All blocks of a step, colour after colour.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Blocks {
     pub(super) blocks: Vec<Block>,
+    /// As many, or none where nothing is turned.
+    pub(super) turned: Vec<Turned>,
     /// The block and lane of each touch; `NOWHERE` of those that are left to impacts.
     pub(super) place: Vec<(u32, u8)>,
     /// How many touches are laid out.
@@ -76,6 +92,7 @@ impl Blocks {
         }
         self.blocks.clear();
         self.blocks.resize(begin as usize, Block::idle());
+        self.turned.clear();
         self.place.clear();
         for ((touch, rows), colour) in touches.iter().zip(of_touch).zip(&self.colour) {
             if *colour == LEFT {
@@ -95,6 +112,9 @@ impl Blocks {
         let open = self.more.filter(|lane| *lane < LANES && !self.blocks.last().is_some_and(|block| block.has(a, b)));
         let lane = open.unwrap_or_else(|| {
             self.blocks.push(Block::idle());
+            if !self.turned.is_empty() {
+                self.turned.push(Turned::NOT);
+            }
             0
         });
         self.more = Some(lane + 1);
@@ -133,6 +153,18 @@ impl Blocks {
         }
     }
 
+    /// The touches are about to be turned: none is yet.
+    pub(super) fn begin_turning(&mut self, touches: &[Touch]) {
+        self.turned.clear();
+        self.turned.resize(self.blocks.len(), Turned::NOT);
+        for (touch, (block, lane)) in touches.iter().zip(&self.place) {
+            let Some(turned) = self.turned.get_mut(*block as usize) else { continue };
+            for p in (0..2).filter(|p| touch.cut[*p]) {
+                turned.cut[p].0[*lane as usize] = 1.0;
+            }
+        }
+    }
+
     /// Nothing is pushed any more.
     pub(super) fn forget_pushes(&mut self) {
         for block in &mut self.blocks {
@@ -154,6 +186,20 @@ impl Blocks {
     pub(super) fn pushes(&self, k: usize) -> ([f64; 2], f64) {
         self.lane(k)
             .map_or_else(Default::default, |(block, lane)| (block.push.map(|push| push.0[lane]), block.grip.0[lane]))
+    }
+
+    /// A touch pushes so at that point alone, and holds with so much friction.
+    pub(super) fn set_pushes(&mut self, k: usize, p: usize, push: f64, grip: f64) {
+        if let Some((block, lane)) = self.lane_mut(k) {
+            block.push[p].0[lane] = push;
+            block.grip.0[lane] = grip;
+        }
+    }
+
+    /// Along what a touch has pushed: its normal, or what that has turned to midway through the sub-step.
+    pub(super) fn normal(&self, k: usize, touch: &Touch) -> Vec2 {
+        let now = self.lane(k).map_or(touch.n, |(block, lane)| Vec2::new(block.nx.0[lane], block.nz.0[lane]));
+        if now == touch.n { now } else { now.normalize() }
     }
 
     /// Whether a touch presses: it has done so in the sub-step before.

@@ -306,10 +306,10 @@ impl Contacts {
     /// How a body flies on from where it has come to: what is not fast and touches others is held by them.
     fn path_ahead(&self, world: &World, body: usize) -> Path {
         let path = self.path_of(world, body);
-        if self.is_held(body) { Path { pull: Pull::NONE, ..path } } else { path }
+        if self.is_held_up(body) { Path { pull: Pull::NONE, ..path } } else { path }
     }
 
-    fn is_held(&self, body: usize) -> bool {
+    fn is_held_up(&self, body: usize) -> bool {
         let Some(row) = self.rows.of(body as u32) else { return false };
         self.rows.mobile_of(row).is_some_and(|at| self.rows.degree[at] > 0) && !self.is_fast(row)
     }
@@ -343,7 +343,7 @@ impl Contacts {
     /// A mobile body flies on to a time of the sub-step.
     fn fly_to(&mut self, world: &mut World, body: usize, time: f64) {
         let Some(row) = self.rows.of(body as u32).filter(|row| self.rows.mobile_of(*row).is_some()) else { return };
-        let (path, held) = (self.path_ahead(world, body), self.is_held(body));
+        let (path, held) = (self.path_ahead(world, body), self.is_held_up(body));
         let more = time - self.fliers.spent[row as usize];
         self.fliers.go_on(&mut self.rows, row, &path, more);
         self.book_ahead(world, row, (more, !held));

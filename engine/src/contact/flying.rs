@@ -1,5 +1,6 @@
 //! How bodies in contact go on over a sub-step: what acts on them, and where that takes them.
 
+use super::midway::HALF;
 use super::pulls::Pulls;
 use super::rows::{INVERSE_MASS, INVERSE_MOMENT, Row, Rows, SPIN, TURN, VX, VZ, X, Z};
 use super::touch::Touch;
@@ -156,6 +157,24 @@ impl Fliers {
         }
     }
 
+    /// How bodies are likely to move on the whole of a sub-step: if forces change their motions as they did in the one before.
+    pub(super) fn foresee(&self, rows: &Rows, pulls: &Pulls, h: f64, mean: &mut Vec<Row>) {
+        mean.clear();
+        mean.extend(rows.rows.iter().zip(&self.spent).map(|(row, spent)| {
+            let mut row = *row;
+            row.0[HALF] = 0.5 * (h - spent);
+            row
+        }));
+        for (k, flier) in self.fliers.iter().enumerate() {
+            let (row, pull) = (&mut mean[rows.first() + k].0, pulls.on_mobile(rows.mobile[k] as usize));
+            let [x, z, spin] = flier.carried;
+            let (v, omega) = (Vec2::new(x, z) + pull.a * h, spin + pull.alpha * h);
+            if v.norm_squared() <= FORCEFUL * FORCEFUL * pull.a.norm_squared() * h * h {
+                (row[VX], row[VZ], row[SPIN]) = (row[VX] + 0.5 * v.x, row[VZ] + 0.5 * v.y, row[SPIN] + 0.5 * omega);
+            }
+        }
+    }
+
     /// A sub-step begins: gravity, drag and pushes act.
     pub(super) fn set_out(&mut self, rows: &mut Rows, pulls: &Pulls, h: f64) {
         for k in 0..self.fliers.len() {
@@ -219,12 +238,6 @@ impl Fliers {
         for row in self.spenders.drain(..) {
             self.spent[row as usize] = 0.0;
         }
-    }
-
-    /// The greatest speed of a body's centre when the sub-step began.
-    pub(super) fn fastest(&self) -> f64 {
-        let squares = self.fliers.iter().map(|flier| flier.start[0] * flier.start[0] + flier.start[1] * flier.start[1]);
-        squares.fold(0.0, f64::max).sqrt()
     }
 
     /// How a row's body flies from where it stands now in the sub-step.

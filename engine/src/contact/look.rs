@@ -14,7 +14,7 @@ use crate::lanes::Wide;
 use crate::width::Work;
 
 /// A look at every point.
-pub(super) struct Look<'a> {
+pub(super) struct Look<'a, const SLIPPED: bool> {
     pub(super) rows: &'a [Row],
     pub(super) blocks: &'a mut [Block],
     /// The sub-step \[s\], and up to what gap points touch \[m\].
@@ -24,7 +24,15 @@ pub(super) struct Look<'a> {
     pub(super) pulled: f64,
 }
 
-impl Work for Look<'_> {
+impl<'a> Look<'a, false> {
+    /// The same with the levers of the moment: bodies may have slipped past each other since the step began.
+    pub(super) fn where_bodies_are(self) -> Look<'a, true> {
+        let Look { rows, blocks, h, band, pulled } = self;
+        Look { rows, blocks, h, band, pulled }
+    }
+}
+
+impl<const SLIPPED: bool> Work for Look<'_, SLIPPED> {
     type Out = ();
 
     #[inline(always)]
@@ -33,11 +41,12 @@ impl Work for Look<'_> {
         for block in self.blocks {
             let (a, b) = (gather::<V>(self.rows, &block.row_a), gather::<V>(self.rows, &block.row_b));
             let gap = gaps(block, &a, &b);
+            let arms = if SLIPPED { Arms::of(block, &a, &b) } else { Arms::at_first(block) };
             let [nx, nz] = normal::<V>(block);
             let along_n = nx * (b[VX] - a[VX]) + nz * (b[VZ] - a[VZ]);
-            let Arms { lever_a, lever_b, .. } = Arms::<V>::at_first(block);
+            #[allow(clippy::needless_range_loop)] // of several arrays
             for k in 0..2 {
-                let u = along_n + lever_b[k] * b[SPIN] - lever_a[k] * a[SPIN];
+                let u = along_n + arms.lever_b[k] * b[SPIN] - arms.lever_a[k] * a[SPIN];
                 let reach = (band - gap[k]).pick(V::zero(), -(gap[k] * rate));
                 block.asked[k] = (reach + (reach - u).min(V::zero()).max(-pulled)).eight();
             }

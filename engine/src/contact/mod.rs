@@ -7,7 +7,8 @@
 //! | sub-step: impacts, of fast bodies, of those that touch no other, and in crowds | [`fast`], [`pairs`], [`strike`] |
 //! | what an impact or a push sets against others that were apart | [`wake`] |
 //! | sub-step: what acts on bodies over it | [`Fliers::set_out`](flying::Fliers::set_out) |
-//! | sub-step: pushes and friction at every touch | [`solve`], [`sweep`], [`hasten`], [`rest`] |
+//! | sub-step: few touches are taken as they are midway through it, and what lands parts it in two | [`midway`], [`landing`] |
+//! | sub-step: pushes and friction at every touch | [`solve`], [`sweep`], [`hasten`], [`rest`], [`slide`] |
 //! | sub-step: bodies go on | [`Fliers::arrive`](flying::Fliers::arrive) |
 //! | the step ends: bodies take their places, touches remember | [`Contacts::settle`] |
 //!
@@ -22,9 +23,11 @@ mod find;
 mod flying;
 mod hasten;
 mod kept;
+mod landing;
 mod loads;
 mod look;
 mod meeting;
+mod midway;
 mod pairs;
 mod part;
 #[cfg(test)]
@@ -35,6 +38,7 @@ mod rest;
 mod rows;
 mod search;
 mod settle;
+mod slide;
 mod solve;
 mod stand;
 mod strike;
@@ -59,7 +63,7 @@ use kept::Kept;
 use pairs::Pairs;
 use pulls::Pulls;
 use rest::Rest;
-use rows::Rows;
+use rows::{Row, Rows};
 use search::Search;
 use touch::Touch;
 use wake::Apart;
@@ -100,6 +104,8 @@ pub(crate) struct Contacts {
     fliers: Fliers,
     rest: Rest,
     hasten: Hasten,
+    /// How bodies are likely to move on the whole of the sub-step.
+    mean: Vec<Row>,
     /// What is laid aside while bodies are moved apart.
     aside: Kept,
     /// Rounds to be spent upon what stands still: fewer where they were in vain.
@@ -151,6 +157,7 @@ impl Contacts {
             fliers: Fliers::default(),
             rest: Rest::default(),
             hasten: Hasten::default(),
+            mean: Vec::new(),
             aside: Kept::default(),
             patience: solve::PATIENCE,
             pairs: Pairs::default(),
@@ -212,20 +219,40 @@ impl World {
 
     /// A part of a step, in so many sub-steps, to a time.
     fn solve_part(&mut self, contacts: &mut Contacts, dt: f64, substeps: u32, time: f64) {
+        self.look_ahead(contacts, (dt, substeps), time);
+        let lands = if substeps == 1 { contacts.lands(self, dt) } else { None };
+        let Some(first) = lands else { return self.solve_found(contacts, (dt, substeps), time, 1.0) };
+        let left = dt - first;
+        self.set_out_on_courses(time - left, first);
+        contacts.lay_out(self, first, 1);
+        self.solve_found(contacts, (first, 1), time - left, first / dt);
+        self.look_ahead(contacts, (left, 1), time);
+        self.solve_found(contacts, (left, 1), time, left / dt);
+    }
+
+    /// Touches are found and laid out for a part of a step.
+    fn look_ahead(&mut self, contacts: &mut Contacts, (dt, substeps): (f64, u32), time: f64) {
         self.set_out_on_courses(time, dt);
         contacts.find(self, dt);
         contacts.lay_out(self, dt, substeps);
+    }
+
+    /// The same, with the touches laid out, where sub-steps are that share of whole ones.
+    fn solve_found(&mut self, contacts: &mut Contacts, (dt, substeps): (f64, u32), time: f64, share: f64) {
         contacts.open_books(self, time - dt);
         if contacts.has_rows() {
             let h = dt / f64::from(substeps);
-            contacts.begin_flights(self, h, 1.0);
+            contacts.begin_flights(self, h, share);
+            if share != 1.0 {
+                contacts.blocks.scale_pushes(share);
+            }
             for k in 0..substeps {
                 contacts.gone = f64::from(k) * h;
                 contacts.substep(self, h);
             }
             contacts.part_overlaps(self);
         }
-        contacts.settle(self, 1.0);
+        contacts.settle(self, 1.0 / share);
         self.fly_alone(contacts, dt);
         contacts.close_books(self, dt);
         for prescription in &self.movers.prescribed {

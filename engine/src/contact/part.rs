@@ -43,6 +43,7 @@ impl Contacts {
     fn part_to_the_end(&mut self, world: &mut World, excess: f64) {
         self.aside.keep(&self.rows.rows, &self.blocks.blocks);
         self.blocks.forget_pushes();
+        self.blocks.turned.clear();
         self.rows.rows.iter_mut().for_each(|row| row.set_motion(Motion::default()));
         let (rows, blocks) = (&self.rows.rows[..], &mut self.blocks.blocks[..]);
         self.width.run(Ask { rows, blocks, band: self.band });

@@ -69,6 +69,8 @@ struct Point<V> {
     depth: V,
     /// Whether it is near enough and not beside the face.
     counts: Flag<V>,
+    /// Whether it is where the edge passes an end of the face.
+    cut: Flag<V>,
 }
 
 /// Eight touches laid out.
@@ -85,6 +87,7 @@ pub(super) struct Points {
     across_x: Eight,
     positive: Eight,
     n: [Eight; 2],
+    cut: [Eight; 2],
     gap: [Eight; 2],
     lever_a: [Eight; 2],
     lever_b: [Eight; 2],
@@ -124,6 +127,7 @@ impl Points {
             across_x: best.across_x.eight(),
             positive: best.positive.eight(),
             n: n.map(V::eight),
+            cut: [points[0].cut.eight(), points[1].cut.min(two).eight()],
             gap: [(-points[0].depth).eight(), two.pick(-points[1].depth, V::all(FAR)).eight()],
             lever_a: levers.a.map(V::eight),
             lever_b: levers.b.map(V::eight),
@@ -161,6 +165,7 @@ impl Points {
             n: Vec2::new(self.n[0].0[k], self.n[1].0[k]),
             ends: [swapped, if has_two { 1 } else { u8::MAX }],
             count: if has_two { 2 } else { 1 },
+            cut: [is(&self.cut[0]), is(&self.cut[1])],
             gap: [self.gap[0].0[k], self.gap[1].0[k]],
             lever_a: [self.lever_a[0].0[k], self.lever_a[1].0[k]],
             lever_b: [self.lever_b[0].0[k], self.lever_b[1].0[k]],
@@ -198,6 +203,8 @@ impl<V: Wide> Levers<V> {
             *arms = [add(on_a, half), sub(on_b, half)];
         }
         let [first, second] = arms;
+        // Friction acts at the height of the nearer point: halfway from the face to it, not to the mean of both.
+        let nearer = V::all(0.25) * (points[0].depth - points[1].depth).abs();
         let mut a = [cross(first[0], n), cross(second[0], n)];
         let mut b = [cross(first[1], n), cross(second[1], n)];
         // A second point beside the first and out of reach keeps all touches alike.
@@ -207,8 +214,8 @@ impl<V: Wide> Levers<V> {
         Levers {
             a,
             b,
-            along_a: middle * (cross(first[0], t) + cross(second[0], t)),
-            along_b: middle * (cross(first[1], t) + cross(second[1], t)),
+            along_a: middle * (cross(first[0], t) + cross(second[0], t)) + nearer,
+            along_b: middle * (cross(first[1], t) + cross(second[1], t)) + nearer,
             middle: add(roles.o, times(add(first[0], second[0]), middle)),
         }
     }
@@ -221,6 +228,7 @@ fn choose<V: Wide>(flag: Flag<V>, yes: &Point<V>, no: &Point<V>) -> Point<V> {
         on_face: pick(flag, yes.on_face, no.on_face),
         depth: flag.pick(yes.depth, no.depth),
         counts: no.counts,
+        cut: flag.pick(yes.cut, no.cut),
     }
 }
 
@@ -266,7 +274,8 @@ impl<V: Wide> Line<V> {
         let (before, after) = (t.less(self.least), self.greatest.less(t));
         let limit = before.pick(self.least, self.greatest);
         let share = ((limit - t) / (until - t)).max(V::zero()).min(V::all(1.0));
-        let share = before.max(after).pick(share, V::zero());
+        let cut = before.max(after);
+        let share = cut.pick(share, V::zero());
         let p = add(place, times(sub(other, place), share));
         let vertex = add(near, times(sub(far, near), share));
         let across = self.across_x.pick(p[0], p[1]);
@@ -274,7 +283,7 @@ impl<V: Wide> Line<V> {
         let on_face = [self.across_x.pick(self.at, p[0]), self.across_x.pick(p[1], self.at)];
         let (at, slack) = (self.along(seen.place(vertex)), V::all(1e-9) * (self.greatest - self.least));
         let within = at.at_least(self.least - slack).min((self.greatest + slack).at_least(at));
-        Point { vertex, on_face, depth, counts: depth.at_least(-margin).min(within) }
+        Point { vertex, on_face, depth, counts: depth.at_least(-margin).min(within), cut }
     }
 
     /// How far the owner may slip along t, backward and forward, before its edge leaves the face.

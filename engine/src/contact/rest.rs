@@ -8,7 +8,7 @@
 //! Each body is shared out among its touches (mass splitting, Tonge 2012): with as many times its true inverse mass in every
 //! touch as it has touches, improving all at once never overshoots.
 
-use super::blocks::Block;
+use super::blocks::{Block, Blocks, Turned};
 use super::rows::{INVERSE_MASS, INVERSE_MOMENT, Row, Rows, SPIN, VX, VZ};
 use super::sweep::{Arms, Lanes, Response, gather, normal, of, push};
 use crate::lanes::{Eight, Wide};
@@ -96,7 +96,8 @@ const SHARED_MOMENT: usize = 4;
 
 impl Rest {
     /// Improves all touches until they are settled; gives how many rounds it took.
-    pub(super) fn settle(&mut self, rows: &mut Rows, blocks: &mut [Block], width: Width, effort: Effort) -> Settled {
+    pub(super) fn settle(&mut self, rows: &mut Rows, blocks: &mut Blocks, width: Width, effort: Effort) -> Settled {
+        let Blocks { blocks, turned, .. } = blocks;
         self.begin(rows, blocks);
         let (mut momentum, mut before) = (Momentum::default(), f64::INFINITY);
         let (mut rounds, mut left) = (0, 0.0);
@@ -105,7 +106,8 @@ impl Rest {
             let share = momentum.share();
             self.extrapolate(share);
             let Rest { guesses, now, beyond, .. } = self;
-            let (change, back) = width.run(Round { guesses, blocks, from: beyond, to: now, share });
+            let round = Round::<false> { guesses, blocks, turned, from: beyond, to: now, share };
+            let (change, back) = if turned.is_empty() { width.run(round) } else { width.run(round.turned()) };
             momentum.go_on(back > 0.0 || change > before);
             (before, left) = (change, change);
             if change <= effort.enough {
@@ -160,22 +162,31 @@ impl Rest {
 }
 
 /// One round: every touch improved from the motions `from`, the changes added to `to`.
-struct Round<'a> {
+struct Round<'a, const TURNED: bool> {
     guesses: &'a mut [Guess],
     blocks: &'a [Block],
+    /// As many, where touches are turned.
+    turned: &'a [Turned],
     from: &'a [Row],
     to: &'a mut [Row],
     share: f64,
 }
 
-impl Work for Round<'_> {
+impl<'a> Round<'a, false> {
+    fn turned(self) -> Round<'a, true> {
+        let Round { guesses, blocks, turned, from, to, share } = self;
+        Round { guesses, blocks, turned, from, to, share }
+    }
+}
+
+impl<const TURNED: bool> Work for Round<'_, TURNED> {
     /// The greatest change of a velocity, and whether (positive) the round turns back on the way it came.
     type Out = (f64, f64);
 
     #[inline(always)]
     fn run<V: Wide>(self) -> (f64, f64) {
         let (mut most, mut back, share) = (V::zero(), V::zero(), V::all(self.share));
-        for (block, guess) in self.blocks.iter().zip(self.guesses) {
+        for (at, (block, guess)) in self.blocks.iter().zip(self.guesses).enumerate() {
             let (a, b) = (gather::<V>(self.from, &block.row_a), gather::<V>(self.from, &block.row_b));
             let arms = Arms::<V>::at_first(block);
             let shared = Response::with(&arms, (a[SHARED_MASS], a[SHARED_MOMENT]), (b[SHARED_MASS], b[SHARED_MOMENT]));
@@ -184,7 +195,8 @@ impl Work for Round<'_> {
                 now[k] = V::of(&guess.x[k].0);
                 from[k] = now[k] + share * (now[k] - V::of(&guess.last[k].0));
             }
-            let (x, change) = improve(block, &shared, &a, &b, &from);
+            let slips = if TURNED { Some(V::of(&self.turned[at].slips.0)) } else { None };
+            let (x, change) = improve(block, &shared, (&a, &b), &from, slips);
             guess.last = guess.x;
             let mut step = x;
             for k in 0..3 {
@@ -204,9 +216,9 @@ impl Work for Round<'_> {
 fn improve<V: Wide>(
     block: &Block,
     shared: &Response<V>,
-    a: &Lanes<V>,
-    b: &Lanes<V>,
+    (a, b): (&Lanes<V>, &Lanes<V>),
     from: &[V; 3],
+    slips: Option<V>,
 ) -> ([V; 3], [V; 3]) {
     let (ux, uz) = (b[VX] - a[VX], b[VZ] - a[VZ]);
     let ([nx, nz], asked) = (normal::<V>(block), of::<V>(&block.asked));
@@ -220,6 +232,7 @@ fn improve<V: Wide>(
     let mass = a[SHARED_MASS] + b[SHARED_MASS];
     let k = mass + a[SHARED_MOMENT] * along_a * along_a + b[SHARED_MOMENT] * along_b * along_b;
     let slip = nz * ux - nx * uz + along_b * b[SPIN] - along_a * a[SPIN];
+    let slip = if let Some(slips) = slips { slip - slips } else { slip };
     let most = V::of(&block.friction.0) * (x1 + x2);
     let grip = (from[2] - slip * k.inverse()).min(most).max(-most);
     let change = [shared.k[0] * (x1 - from[0]), shared.k[1] * (x2 - from[1]), k * (grip - from[2])];

@@ -172,6 +172,12 @@ impl Rows {
         (k < self.mobile.len()).then_some(k)
     }
 
+    /// The greatest speed of a mobile body's centre.
+    pub(super) fn fastest(&self) -> f64 {
+        let squares = self.of_mobile().iter().map(|Row(row)| row[VX] * row[VX] + row[VZ] * row[VZ]);
+        squares.fold(0.0, f64::max).sqrt()
+    }
+
     /// Whether no mobile body is faster than that, at its radius of gyration either.
     pub(super) fn are_slower_than(&self, limit: f64) -> bool {
         self.of_mobile().iter().all(|Row(row)| {

@@ -27,6 +27,8 @@ impl Contacts {
             }
         }
         for k in 0..self.touches.len() {
+            // A force goes on over a longer time; an impact does not.
+            let share = if share > 1.0 && !self.is_force(k, self.dt) { 1.0 } else { share };
             let touch = &mut self.touches[k];
             let (push, grip) = self.blocks.pushes(k);
             (touch.push, touch.grip) = (push.map(|push| push * share), grip * share);
@@ -35,7 +37,7 @@ impl Contacts {
             let is_new = pressed && !touch.touching && was_open && self.lonely.binary_search(&(k as u32)).is_err();
             touch.touching = pressed;
             if is_new {
-                let (point, normal) = (touch.middle, touch.n);
+                let (point, normal) = (touch.middle, self.blocks.normal(k, touch));
                 if let Some(ledger) = &mut world.ledger {
                     ledger.enter_touch(k);
                 }

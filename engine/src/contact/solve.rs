@@ -1,6 +1,8 @@
 //! A sub-step solved: pushes and friction at every touch that is laid out.
 
+use super::blocks::Blocks;
 use super::look::{Look, Warm};
+use super::midway::Midway;
 use super::rest::{Effort, Settled};
 use super::sweep::Sweep;
 use super::{Contacts, flying, rest, weights};
@@ -59,13 +61,17 @@ impl Contacts {
         let pulled = world.plan.gravity().norm() * h;
         self.look(0, h, flying::FORCEFUL * pulled);
         self.leave_clear();
+        let fastest = self.rows.fastest();
+        let turns = h == self.dt && self.are_few() && pulled > 0.0 && fastest > STILL * pulled;
+        if turns {
+            self.turn_midway(h, flying::FORCEFUL * pulled);
+        }
         self.fliers.set_out(&mut self.rows, &self.pulls, h);
-        let fastest = self.fliers.fastest();
         let quiet = fastest <= QUIET * pulled;
         // Where nothing pulls, what counts is how fast things are.
         let scale = if pulled > 0.0 { pulled } else { fastest };
         let budget = if quiet { IN_QUIET } else { IN_MOTION };
-        if quiet {
+        if quiet && !turns {
             self.fliers.renew(&mut self.rows);
         } else {
             self.width.run(Warm { rows: &mut self.rows.rows, blocks: &self.blocks.blocks });
@@ -74,6 +80,9 @@ impl Contacts {
             self.settle_touches(world, h, pulled, fastest);
         } else {
             self.push_on(world, (h, scale), &budget);
+        }
+        if turns {
+            self.slide();
         }
         // A jam has no solution: pushes grow without end, and do harm once it gives way.
         if self.fliers.gained(&self.rows, self.reach) {
@@ -84,6 +93,15 @@ impl Contacts {
                 self.sweep_touches(world, FRESH_SWEEPS);
             }
         }
+    }
+
+    /// Touches that press are taken as they are midway through the sub-step.
+    fn turn_midway(&mut self, h: f64, pulled: f64) {
+        self.fliers.foresee(&self.rows, &self.pulls, h, &mut self.mean);
+        self.blocks.begin_turning(&self.touches);
+        let Blocks { blocks, turned, .. } = &mut self.blocks;
+        let (rows, mean) = (&self.rows.rows[..], &self.mean[..]);
+        self.width.run(Midway { rows, mean, blocks, turned, band: self.band, pulled });
     }
 
     /// Improves all touches of a scene that moves, to the scale of velocities that count \[m/s\].
@@ -157,8 +175,7 @@ impl Contacts {
     }
 
     pub(super) fn settle_for(&mut self, world: &mut World, effort: Effort) -> Settled {
-        let (rows, blocks) = (&mut self.rows, &mut self.blocks.blocks);
-        let settled = self.rest.settle(rows, blocks, self.width, effort);
+        let settled = self.rest.settle(&mut self.rows, &mut self.blocks, self.width, effort);
         world.work.touches_solved += u64::from(settled.rounds) * self.blocks.count as u64;
         settled
     }
@@ -172,19 +189,26 @@ impl Contacts {
 
     /// What every point asks for in the sub-step, from that block on.
     pub(super) fn look(&mut self, from: usize, h: f64, pulled: f64) {
+        let few = self.are_few();
         let (rows, blocks) = (&self.rows.rows[..], &mut self.blocks.blocks[from..]);
-        self.width.run(Look { rows, blocks, h, band: self.band, pulled });
+        let look = Look::<false> { rows, blocks, h, band: self.band, pulled };
+        if pulled > 0.0 && few { self.width.run(look.where_bodies_are()) } else { self.width.run(look) }
     }
 
     /// A sweep over the blocks from that one on.
     fn sweep(&mut self, from: usize, back: bool) {
         let parts = !self.are_few();
-        let (rows, blocks, band) = (&mut self.rows.rows[..], &mut self.blocks.blocks[from..], self.band);
+        let Blocks { blocks, turned, .. } = &mut self.blocks;
+        let turned = turned.get(from..).unwrap_or_default();
+        let (rows, blocks, band) = (&mut self.rows.rows[..], &mut blocks[from..], self.band);
         match (self.plan.friction, parts) {
-            (true, true) => self.width.run(Sweep::<true, true> { rows, blocks, band, back }),
-            (true, false) => self.width.run(Sweep::<true, false> { rows, blocks, band, back }),
-            (false, true) => self.width.run(Sweep::<false, true> { rows, blocks, band, back }),
-            (false, false) => self.width.run(Sweep::<false, false> { rows, blocks, band, back }),
+            (true, true) => self.width.run(Sweep::<true, true, false> { rows, blocks, turned, band, back }),
+            (true, false) if turned.is_empty() => {
+                self.width.run(Sweep::<true, false, false> { rows, blocks, turned, band, back });
+            }
+            (true, false) => self.width.run(Sweep::<true, false, true> { rows, blocks, turned, band, back }),
+            (false, true) => self.width.run(Sweep::<false, true, false> { rows, blocks, turned, band, back }),
+            (false, false) => self.width.run(Sweep::<false, false, false> { rows, blocks, turned, band, back }),
         }
     }
 }

@@ -43,6 +43,13 @@ impl Contacts {
                 if left <= 0.0 || self.touches[k].met || !self.is_lonely(k) || !self.may_strike(k, left, h) {
                     break;
                 }
+                if self.is_held(k) {
+                    // It does not fly: what is to land is left to the pushes.
+                    if self.meets(world, k, [true; 2], left).is_none() {
+                        self.clear.push(k as u32);
+                    }
+                    break;
+                }
                 match self.strike_once(world, k, [true; 2], (left, h)) {
                     Some(time) => left -= time,
                     None => break,
@@ -208,6 +215,11 @@ impl Contacts {
             let speed = (u * u + 2.0 * pulled * gap.max(0.0)).sqrt();
             closest <= 0.0 && (u < 0.0 || gap > 0.0) && 2.0 * speed > SHORTEST * h * pulled
         })
+    }
+
+    /// Whether a touch presses and would give nothing back.
+    fn is_held(&self, k: usize) -> bool {
+        self.touches[k].surface.restitution == 0.0 && self.blocks.presses(k)
     }
 
     /// Whether what an impact gives back would be taken again within a sub-step: then it is not given.

@@ -5,7 +5,7 @@
 //! and the pushes are solved: u ≥ what the point asks ([`super::look`]), push ≥ 0, and one of the two exact. That 2×2
 //! complementarity problem is solved in closed form, all cases side by side and the right one picked.
 
-use super::blocks::Block;
+use super::blocks::{Block, Turned};
 use super::rows::{INVERSE_MASS, INVERSE_MOMENT, Row, SPIN, TURN, VX, VZ, X, Z};
 use crate::lanes::{Eight, LANES, Wide};
 use crate::width::Work;
@@ -14,23 +14,26 @@ use crate::width::Work;
 const SAME: f64 = 1e-12;
 
 /// One sweep.
-pub(super) struct Sweep<'a, const FRICTION: bool, const PART: bool> {
+pub(super) struct Sweep<'a, const FRICTION: bool, const PART: bool, const TURNED: bool> {
     pub(super) rows: &'a mut [Row],
     pub(super) blocks: &'a mut [Block],
+    /// As many, where touches are turned.
+    pub(super) turned: &'a [Turned],
     /// Gaps and depths up to this are none \[m\].
     pub(super) band: f64,
     /// From the last touch to the first: sweeps to and fro favour neither end of a pile.
     pub(super) back: bool,
 }
 
-impl<const FRICTION: bool, const PART: bool> Work for Sweep<'_, FRICTION, PART> {
+impl<const FRICTION: bool, const PART: bool, const TURNED: bool> Work for Sweep<'_, FRICTION, PART, TURNED> {
     type Out = ();
 
     #[inline(always)]
     fn run<V: Wide>(self) {
         let count = self.blocks.len();
         for at in 0..count {
-            let block = &mut self.blocks[if self.back { count - 1 - at } else { at }];
+            let at = if self.back { count - 1 - at } else { at };
+            let block = &mut self.blocks[at];
             let (mut a, mut b) = (gather::<V>(self.rows, &block.row_a), gather::<V>(self.rows, &block.row_b));
             let arms = Arms::of(block, &a, &b);
             let response = Response::of(&arms, &a, &b);
@@ -39,7 +42,8 @@ impl<const FRICTION: bool, const PART: bool> Work for Sweep<'_, FRICTION, PART> 
             }
             press(block, &arms, (&mut a, &mut b), &response);
             if FRICTION {
-                rub(block, &arms, (&mut a, &mut b));
+                let slips = if TURNED { Some(V::of(&self.turned[at].slips.0)) } else { None };
+                rub(block, &arms, (&mut a, &mut b), slips);
             }
             scatter(self.rows, &block.row_a, a);
             scatter(self.rows, &block.row_b, b);
@@ -191,14 +195,15 @@ fn part_overlap<V: Wide>(
     give((a, b), PLACE, [nx * sum, nz * sum], [turn_a, turn_b]);
 }
 
-/// Friction: against the slip, as far as the pushes hold it.
+/// Friction: against the slip, but for what it is to be, as far as the pushes hold it.
 #[inline(always)]
-fn rub<V: Wide>(block: &mut Block, arms: &Arms<V>, (a, b): (&mut Lanes<V>, &mut Lanes<V>)) {
+fn rub<V: Wide>(block: &mut Block, arms: &Arms<V>, (a, b): (&mut Lanes<V>, &mut Lanes<V>), slips: Option<V>) {
     let mass = a[INVERSE_MASS] + b[INVERSE_MASS];
     let (turn_a, turn_b) = (a[INVERSE_MOMENT] * arms.along_a, b[INVERSE_MOMENT] * arms.along_b);
     let k = mass + turn_a * arms.along_a + turn_b * arms.along_b;
     let ((ux, uz), [nx, nz]) = ((b[VX] - a[VX], b[VZ] - a[VZ]), normal::<V>(block));
     let slip = nz * ux - nx * uz + arms.along_b * b[SPIN] - arms.along_a * a[SPIN];
+    let slip = if let Some(slips) = slips { slip - slips } else { slip };
     let ([p1, p2], before) = (of::<V>(&block.push), V::of(&block.grip.0));
     let most = V::of(&block.friction.0) * (p1 + p2);
     let grip = (before - slip * k.inverse()).min(most).max(-most);

@@ -36,6 +36,8 @@ pub(crate) struct Touch {
     /// Which end of the owner's edge each point is, whole or cut, and how many points there are.
     pub(super) ends: [u8; 2],
     pub(super) count: u8,
+    /// Which points are no corners of the owner's but where its edge passes an end of the face: they do not turn with the owner.
+    pub(super) cut: [bool; 2],
     /// Gaps at the start of the step, negative where they overlap \[m\].
     pub(super) gap: [f64; 2],
     /// r × n of both points on both bodies, and r × t \[m\].
@@ -103,6 +105,8 @@ impl Touch {
         // `along` runs with t or against it.
         let with_t = manifold.face.place(reference.rect, 1.0) - manifold.face.place(reference.rect, 0.0);
         let slip = if frame_a.outward(with_t).dot(&t) > 0.0 { (w0 - e1, w1 - e0) } else { (e0 - w1, e1 - w0) };
+        // Friction acts at the height of the nearer point: halfway from the face to it, not to the mean of both.
+        let nearer = 0.25 * (first.2 - second.2).abs();
         let mut touch = Touch {
             rects: (0, 0),
             a: reference.body as u32,
@@ -112,11 +116,12 @@ impl Touch {
             n,
             ends: [0, 1],
             count: manifold.points().len() as u8,
+            cut: [0, 1].map(|k| manifold.points().get(k).is_some_and(|point| point.feature > 1)),
             gap: [first.2, second.2],
             lever_a: [cross(first.0, n), cross(second.0, n)],
             lever_b: [cross(first.1, n), cross(second.1, n)],
-            along_a: 0.5 * (cross(first.0, t) + cross(second.0, t)),
-            along_b: 0.5 * (cross(first.1, t) + cross(second.1, t)),
+            along_a: 0.5 * (cross(first.0, t) + cross(second.0, t)) + nearer,
+            along_b: 0.5 * (cross(first.1, t) + cross(second.1, t)) + nearer,
             slip,
             surface: Surface::of_pair(bodies.surface[reference.body], bodies.surface[owner.body]),
             middle: frame_a.o + (first.0 + second.0) * 0.5,
@@ -146,6 +151,11 @@ impl Touch {
         }
         (self.touching, self.met) = (last.touching, last.met);
         self.grip = last.grip;
+        if (self.count, last.count) == (1, 1) && !self.cut[0] && !last.cut[0] {
+            // The same corner, though it may by now be the other end of another edge.
+            self.push[0] = last.push[0];
+            return;
+        }
         for k in 0..self.count as usize {
             let same = last.ends.iter().position(|end| *end == self.ends[k]);
             if let Some(at) = same {
