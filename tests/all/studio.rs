@@ -387,11 +387,11 @@ fn no_name_leads_out_of_the_folder() {
 #[test]
 fn a_script_without_end_is_stopped_and_the_studio_lives() {
     let endless = "mobile(\"a\").rect(1, 1);\nfn on_step(world) { loop { } }";
-    let flags = ["--script-timeout", "0.2"];
+    let flags = ["--script-timeout", "0.02"];
     let studio = Studio::open(&[("scenarios/endless.rhai", endless), ("scenarios/main.rhai", "loop { }")], &flags);
     for name in ["endless.rhai", "main.rhai"] {
         let told = studio.run(name, &json!([]));
-        assert!(told.event("error")["text"].as_str().is_some_and(|text| text.contains("0.2 s")), "{:?}", told.events);
+        assert!(told.event("error")["text"].as_str().is_some_and(|text| text.contains("0.02 s")), "{:?}", told.events);
     }
     assert_eq!(studio.get("scenarios").status, 200);
 }
