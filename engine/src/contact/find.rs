@@ -173,11 +173,13 @@ impl<F: Fn(usize) -> Frame + Copy> Work for Look<'_, F> {
                 let seam = bodies.seams.concern(one.index) || bodies.seams.concern(two.index);
                 match points.touches(k).filter(|_| (deep.0[k] < 0.0 || last[k].is_some()) && !seam) {
                     None => {
-                        touches.extend(Touch::find(bodies, (one, two), margin.0[k], last[k], earlier));
+                        if let Some(touch) = Touch::find(bodies, (one, two), margin.0[k], last[k], earlier) {
+                            touch.put_behind(touches);
+                        }
                     }
                     Some(false) => {}
                     Some(true) => {
-                        touches.push(points.touch(k, bodies, (&one, &two)));
+                        points.touch(k, bodies, (&one, &two)).put_behind(touches);
                         if let (Some(touch), Some(last)) = (touches.last_mut(), last[k]) {
                             touch.remember(last);
                         }

@@ -45,7 +45,7 @@ impl Contacts {
             }
         }
         if self.touches.len() > self.found {
-            self.touches.sort_by_key(|touch| touch.rects);
+            self.touches.sort_unstable_by_key(|touch| touch.rects);
         }
     }
 

@@ -173,7 +173,7 @@ impl Contacts {
         if touch.surface.restitution > 0.0 {
             self.crowd.push(self.touches.len() as u32);
         }
-        self.touches.push(touch);
+        touch.put_behind(&mut self.touches);
         self.of_touch.push(rows);
         if let Some(ledger) = &mut world.ledger {
             ledger.expect_touches(self.touches.len());

@@ -23,7 +23,7 @@ fn darts(seed: u64, (count, speed, substeps): (u32, f64, u32)) {
     let mut ways = Vec::new();
     for k in 0..count {
         let x = 20.0 * f64::from(k);
-        let (way, far) = (random.between(0.0, 6.28), random.between(1.0, 6.0));
+        let (way, far) = (random.between(0.0, core::f64::consts::TAU), random.between(1.0, 6.0));
         let (s, c) = (libm::sin(way), libm::cos(way));
         let post = wall(&format!("post{k}"), (0.3, 0.3), (x, 0.0));
         bodies.push(Body { angle: random.between(0.0, 1.5), ..post });
