@@ -2,6 +2,7 @@
 
 use super::Contacts;
 use super::rows::{X, Z};
+use super::sweep::Arms;
 use crate::area::Vec2;
 use crate::bodies::Motion;
 use crate::detect::manifold::Manifold;
@@ -61,7 +62,7 @@ impl Contacts {
     /// Bodies stand where they have come to.
     pub(super) fn close_books(&self, world: &mut World, dt: f64) {
         let World { ledger: Some(ledger), bodies, movers, plan, .. } = world else { return };
-        let solved = self.has_rows();
+        let solved = self.solves;
         for body in movers.mobile.iter().filter(|body| !(solved && self.rows.of(**body).is_some())) {
             ledger.flown_alone(bodies, *body as usize, dt, &self.forces(plan, *body as usize));
         }
@@ -110,25 +111,16 @@ impl Contacts {
             return None;
         }
         let [a, b] = [block.row_a[lane], block.row_b[lane]].map(|row| &self.rows.rows[row as usize].0);
-        let (dx, dz) = (b[X] - a[X], b[Z] - a[Z]);
-        let (nx, nz) = (of(block.nx), of(block.nz));
-        // As `Arms::of` has it.
-        let (apart, slipped) = ((nx * dx + nz * dz) * 0.5, (nz * dx - nx * dz) * 0.5);
-        let twists = |lever: [Eight; 2], slipped: f64, along: f64| {
-            let [first, second] = lever.map(of);
-            ((first + slipped) * push[0] + (second + slipped) * push[1], along * grip)
-        };
-        let n = Vec2::new(nx, nz);
+        let arms = Arms::in_lane(block, lane, a, b);
+        let twists = |lever: [f64; 2], along: f64| (lever[0] * push[0] + lever[1] * push[1], along * grip);
+        let n = Vec2::new(of(block.nx), of(block.nz));
         let pair = [self.touches[touch].a as usize, self.touches[touch].b as usize];
         Some(Pressing {
             touch,
             pair,
             along: n * (push[0] + push[1]),
             across: Vec2::new(n.y, -n.x) * grip,
-            twists: [
-                twists(block.lever_a, slipped, of(block.along_a) - apart),
-                twists(block.lever_b, -slipped, of(block.along_b) + apart),
-            ],
+            twists: [twists(arms.lever_a, arms.along_a), twists(arms.lever_b, arms.along_b)],
         })
     }
 }

@@ -5,11 +5,11 @@
 //! meets ([`crate::impact_time`] never steps over one), in the order of time, and becomes a touch there. What an impact makes
 //! fast is followed from then on.
 //!
-//! What is not fast stays where it is while another flies to it, and is only thought of as further on.
+//! What is not fast and touches others is held by them: nothing pulls at it on its way to where it is met.
 
 use super::Contacts;
 use super::meeting::Two;
-use super::rows::{Row, SPIN, VX, VZ};
+use super::rows::Row;
 use crate::bodies::{Bodies, Motion};
 use crate::broad_phase::bounds::sweep;
 use crate::broad_phase::met::Bounds;
@@ -52,7 +52,7 @@ pub(super) struct Fast {
     /// All that each sweeps over in what is left of the sub-step; and by row, whether it is one of them.
     swept: Vec<Bounds>,
     is_fast: Vec<bool>,
-    /// How far any mobile body may come in a sub-step at most, when last looked at \[m\].
+    /// How far any body may come in a sub-step at most, when last looked at \[m\].
     farthest: f64,
     /// Who has met, and when.
     met: Vec<Meets>,
@@ -71,6 +71,12 @@ impl Fast {
     }
 }
 
+/// How far a body that moves so for a time comes at most, none of its points being further out than that.
+#[inline]
+fn bound(Motion { v, omega }: Motion, reach: f64, time: f64) -> f64 {
+    (v.x.abs() + v.y.abs() + omega.abs() * reach) * time
+}
+
 /// Whether a body that moves so for a time comes further than half its size.
 fn is_fast(bodies: &Bodies, body: usize, Motion { v, omega }: Motion, time: f64) -> bool {
     (v.norm() + omega.abs() * bodies.reach(body)) * time > bodies.smallest_half(body)
@@ -84,8 +90,7 @@ impl Contacts {
         fast.clear();
         *farthest = 0.0;
         for body in 0..bodies.len() {
-            let Motion { v, omega } = bodies.motion[body];
-            let far = (v.x.abs() + v.y.abs() + omega.abs() * self.farthest) * h;
+            let far = bound(bodies.motion[body], self.farthest, h);
             *farthest = farthest.max(far);
             if far > self.smallest && is_fast(bodies, body, bodies.motion[body], h) {
                 fast.push(body as u32);
@@ -143,15 +148,15 @@ impl Contacts {
     fn look_at_fast(&mut self, world: &World) {
         for k in 0..self.touches.len() {
             let (a, b) = self.of_touch[k];
-            if (self.is_fast(a) || self.is_fast(b)) && !self.presses_still(world, k) {
+            if !self.is_fast(a) && !self.is_fast(b) {
+                continue;
+            }
+            let (_, paths) = self.paths_together(world, self.touches[k].rects);
+            if !self.is_pressing(world, k, &paths) {
                 let found = self.look_again(world, k);
                 self.fast.looked.push((k as u32, found));
             }
         }
-    }
-
-    fn presses_still(&self, world: &World, k: usize) -> bool {
-        self.blocks.presses(k) && self.is_pressing(world, k, &self.paths_together(world, self.touches[k].rects).1)
     }
 
     /// Fast bodies have met all that they meet in the sub-step: what they do not touch now they are not pushed away from, and where
@@ -171,17 +176,11 @@ impl Contacts {
 
     /// A row whose body is fast by now is followed.
     fn follow_if_fast(&mut self, world: &World, row: u32, h: f64) {
-        let at = &self.rows.rows[row as usize].0;
-        let farthest = (at[VX].abs() + at[VZ].abs() + at[SPIN].abs() * self.farthest) * h;
-        self.fast.farthest = self.fast.farthest.max(farthest);
-        if farthest <= self.smallest || self.fast.is_fast.get(row as usize).is_some_and(|is_fast| *is_fast) {
+        if self.note_speed(row, h) <= self.smallest || self.is_fast(row) {
             return;
         }
-        if self
-            .rows
-            .body_of(row)
-            .is_some_and(|body| is_fast(&world.bodies, body, self.rows.rows[row as usize].motion(), h))
-        {
+        let motion = self.rows.rows[row as usize].motion();
+        if self.rows.body_of(row).is_some_and(|body| is_fast(&world.bodies, body, motion, h)) {
             let Fast { rows, next, swept, is_fast, .. } = &mut self.fast;
             rows.push(row);
             next.push(Foreseen::NotYet);
@@ -191,11 +190,11 @@ impl Contacts {
         }
     }
 
-    /// An impact has changed a row's motion.
-    pub(super) fn note_speed(&mut self, row: u32, h: f64) {
-        let at = &self.rows.rows[row as usize].0;
-        let farthest = (at[VX].abs() + at[VZ].abs() + at[SPIN].abs() * self.farthest) * h;
-        self.fast.farthest = self.fast.farthest.max(farthest);
+    /// Notes how far a row's body may come in a sub-step as it moves now, and gives it.
+    pub(super) fn note_speed(&mut self, row: u32, h: f64) -> f64 {
+        let far = bound(self.rows.rows[row as usize].motion(), self.farthest, h);
+        self.fast.farthest = self.fast.farthest.max(far);
+        far
     }
 
     fn is_fast(&self, row: u32) -> bool {

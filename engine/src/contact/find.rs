@@ -141,9 +141,7 @@ impl<F: Fn(usize) -> Frame + Copy> Work for Look<'_, F> {
             for (k, key) in keys.iter().enumerate().skip(1) {
                 (one[k], two[k]) = (search.placed(bodies, key.0), search.placed(bodies, key.1));
             }
-            let sides = [Side::<V>::of(bodies, acting, &one), Side::of(bodies, acting, &two)];
-            let [first, second] = sides;
-            let pairs = Abreast::new(first, second, dt);
+            let pairs = Abreast::<V>::new(Side::of(bodies, acting, &one), Side::of(bodies, acting, &two), dt);
             let listed = pairs.may();
             if !listed.any() {
                 continue;

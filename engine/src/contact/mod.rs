@@ -120,7 +120,7 @@ pub(crate) struct Contacts {
     clear: Vec<u32>,
     /// How many touches there were when the part of the step began; those that join it come after them.
     found: usize,
-    /// Whether any bodies are laid out.
+    /// Whether any bodies are laid out for the solver; all others fly on in one go.
     solves: bool,
     /// Bodies that fly far within a sub-step; the smallest half size of a mobile body, and how far any reaches from its centre \[m\].
     fast: Fast,
@@ -240,7 +240,7 @@ impl World {
     /// The same, with the touches laid out, where sub-steps are that share of whole ones.
     fn solve_found(&mut self, contacts: &mut Contacts, (dt, substeps): (f64, u32), time: f64, share: f64) {
         contacts.open_books(self, time - dt);
-        if contacts.has_rows() {
+        if contacts.solves {
             let h = dt / f64::from(substeps);
             contacts.begin_flights(self, h, share);
             if share != 1.0 {
@@ -277,7 +277,7 @@ impl World {
     /// Bodies that nothing is near.
     fn fly_alone(&mut self, contacts: &Contacts, dt: f64) {
         let World { plan, bodies, movers, work, .. } = self;
-        let touched = |body: u32| contacts.has_rows() && contacts.rows.of(body).is_some();
+        let touched = |body: u32| contacts.solves && contacts.rows.of(body).is_some();
         let pulls = contacts.pulls.act().then_some(|body: usize| contacts.pulls.on_mobile(body));
         let lost = advance_alone(bodies, movers, plan.flight, dt, pulls.as_ref(), touched, work);
         if let Some(body) = lost {
@@ -291,11 +291,6 @@ impl Contacts {
     fn parts(&self) -> u32 {
         let few = (1..=A_FEW).contains(&(self.touches.len() + self.apart.pairs().len()));
         if few { self.plan.substeps } else { 1 }
-    }
-
-    /// Whether any bodies are laid out for the solver; all others fly on in one go.
-    fn has_rows(&self) -> bool {
-        self.solves
     }
 
     /// Lays bodies and touches out for the solver.

@@ -11,7 +11,7 @@ use crate::world::{BodyId, World};
 impl Contacts {
     /// Bodies take their places and motions; touches remember that share of what they pushed.
     pub(super) fn settle(&mut self, world: &mut World, share: f64) {
-        if !self.has_rows() {
+        if !self.solves {
             return;
         }
         for (k, &body) in self.rows.mobile.iter().enumerate() {

@@ -10,8 +10,7 @@
 
 use super::Contacts;
 use super::rows::{INVERSE_MASS, INVERSE_MOMENT, SPIN, VX, VZ};
-use super::sweep::{Arms, gather};
-use crate::lanes::Eight;
+use super::sweep::Arms;
 
 /// What a point parts and slips by more than it should were nothing pushed, and how that answers pushes and friction.
 struct Alone {
@@ -61,10 +60,10 @@ impl Contacts {
         let slips_on =
             self.blocks.turned.get(self.blocks.place[k].0 as usize).map_or(0.0, |turned| turned.slips.0[lane]);
         let (rows, (row_a, row_b)) = (&mut self.rows.rows, self.of_touch[k]);
-        let arms = Arms::of(block, &gather::<Eight>(rows, &block.row_a), &gather::<Eight>(rows, &block.row_b));
-        let levers = |p: usize| [arms.lever_a[p].0[lane], arms.lever_b[p].0[lane]];
-        let ([lever_a, lever_b], [along_a, along_b]) = (levers(p), [arms.along_a.0[lane], arms.along_b.0[lane]]);
         let (a, b) = (rows[row_a as usize].0, rows[row_b as usize].0);
+        let arms = Arms::in_lane(block, lane, &a, &b);
+        let levers = |p: usize| [arms.lever_a[p], arms.lever_b[p]];
+        let ([lever_a, lever_b], Arms { along_a, along_b, .. }) = (levers(p), &arms);
         let (nx, nz) = (block.nx.0[lane], block.nz.0[lane]);
         let (ux, uz) = (b[VX] - a[VX], b[VZ] - a[VZ]);
         let [turn_a, turn_b] = [a[INVERSE_MOMENT], b[INVERSE_MOMENT]];

@@ -9,6 +9,7 @@ use super::blocks::{Block, Turned};
 use super::rows::{INVERSE_MASS, INVERSE_MOMENT, Row, SPIN, TURN, VX, VZ, X, Z};
 use crate::lanes::{Eight, LANES, Wide};
 use crate::width::Work;
+use core::ops::{Add, Mul, Sub};
 
 /// A determinant below this share of its terms is none.
 const SAME: f64 = 1e-12;
@@ -99,11 +100,30 @@ impl<V: Wide> Arms<V> {
 
     #[inline(always)]
     pub(super) fn of(block: &Block, a: &Lanes<V>, b: &Lanes<V>) -> Arms<V> {
-        let (dx, dz) = (b[X] - a[X], b[Z] - a[Z]);
-        let (half, [nx, nz]) = (V::all(0.5), normal::<V>(block));
+        Arms::at_first(block).moved(normal::<V>(block), [b[X] - a[X], b[Z] - a[Z]], V::all(0.5))
+    }
+}
+
+impl Arms<f64> {
+    /// The same in one lane, with the rows of its bodies.
+    pub(super) fn in_lane(block: &Block, lane: usize, a: &[f64; LANES], b: &[f64; LANES]) -> Arms<f64> {
+        let first = Arms {
+            lever_a: block.lever_a.map(|lever| lever.0[lane]),
+            lever_b: block.lever_b.map(|lever| lever.0[lane]),
+            along_a: block.along_a.0[lane],
+            along_b: block.along_b.0[lane],
+        };
+        first.moved([block.nx.0[lane], block.nz.0[lane]], [b[X] - a[X], b[Z] - a[Z]], 0.5)
+    }
+}
+
+impl<T: Copy + Add<Output = T> + Sub<Output = T> + Mul<Output = T>> Arms<T> {
+    /// Where b has moved on by d from a since: both levers by half of it.
+    #[inline(always)]
+    fn moved(self, [nx, nz]: [T; 2], [dx, dz]: [T; 2], half: T) -> Arms<T> {
         let apart = (nx * dx + nz * dz) * half;
         let slipped = (nz * dx - nx * dz) * half;
-        let Arms { lever_a, lever_b, along_a, along_b } = Arms::<V>::at_first(block);
+        let Arms { lever_a, lever_b, along_a, along_b } = self;
         Arms {
             lever_a: [lever_a[0] + slipped, lever_a[1] + slipped],
             lever_b: [lever_b[0] - slipped, lever_b[1] - slipped],

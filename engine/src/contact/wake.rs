@@ -67,7 +67,7 @@ impl Apart {
         }
     }
 
-    /// Remembers those of the rows that touches laid out may push and whose bodies have pairs, from one row on.
+    /// Remembers the rows that touches laid out may push and whose bodies have pairs.
     pub(super) fn begin_pushing(&mut self, rows: &Rows, is_laid_out: impl Fn(usize) -> bool) {
         self.pushed.clear();
         self.is_pushed.clear();
@@ -115,9 +115,9 @@ impl Contacts {
     /// no more than gravity does.
     fn deviates(&self, world: &World, k: usize, held: Option<(Vec2, f64)>) -> bool {
         let [x, z, turned] = self.fliers.fliers[k].changed(&self.rows.of_mobile()[k].0);
-        let (mut change, mut pulled) = (Vec2::new(x, z), 0.0);
-        if let Some((up, most)) = held {
-            pulled = most;
+        let mut change = Vec2::new(x, z);
+        let pulled = held.map_or(0.0, |(_, most)| most);
+        if let Some((up, _)) = held {
             change -= up * change.dot(&up).clamp(0.0, pulled);
         }
         let reach = world.bodies.reach(self.rows.mobile[k] as usize);
