@@ -4,6 +4,7 @@ use super::Contacts;
 use super::abreast::{Abreast, Loyal, Side};
 use super::points::Points;
 use super::pulls::Pulls;
+use super::remembered::Remembered;
 use super::search::Search;
 use super::touch::Touch;
 use crate::advance::frame_before;
@@ -63,27 +64,27 @@ impl Contacts {
         let World { plan, bodies, threads, work, .. } = world;
         let bodies = &*bodies;
         core::mem::swap(&mut self.touches, &mut self.before);
+        let found = core::mem::take(&mut self.found);
         self.touches.clear();
         let acting = Acting { pulls: &self.pulls, on_all: self.pulls.on_all() };
         self.search.pairs((bodies, acting, dt), plan.broad_phase, (self.width, *threads), work);
         let earlier = |body: usize| frame_before(bodies, plan.flight, plan.time_step, body);
         let Contacts { search, touches, before, apart, width, .. } = self;
         let apart = apart.begin();
-        let (search, before, width) = (&*search, &before[..], *width);
+        let (search, before, width) = (&*search, Remembered::new(before, found), *width);
         let tasks: Vec<_> = threads
             .parts(search.near().len(), LANES, PER_THREAD)
             .into_iter()
             .map(|part| {
                 let near = &search.near()[part];
-                let before = near
-                    .first()
-                    .map_or(before, |first| &before[before.partition_point(|touch| touch.rects < *first)..]);
+                let before = near.first().map_or(before, |first| before.from(*first));
                 move |touches: &mut Vec<Touch>, apart: &mut Vec<(u32, u32)>| {
                     width.run(Look { bodies, acting, search, near, before, touches, apart, dt, earlier });
                 }
             })
             .collect();
         share(tasks, touches, apart);
+        self.found = self.touches.len();
         work.pairs_listed += self.touches.len() as u64;
     }
 }
@@ -119,7 +120,7 @@ struct Look<'a, F> {
     acting: Acting<'a>,
     search: &'a Search,
     near: &'a [(u32, u32)],
-    before: &'a [Touch],
+    before: Remembered<'a>,
     touches: &'a mut Vec<Touch>,
     /// Pairs that stay apart unless something is done to them.
     apart: &'a mut Vec<(u32, u32)>,
@@ -133,8 +134,7 @@ impl<F: Fn(usize) -> Frame + Copy> Work for Look<'_, F> {
 
     #[inline(always)]
     fn run<V: Wide>(self) {
-        let Look { bodies, acting, search, near, before, touches, apart, dt, earlier } = self;
-        let mut next = 0;
+        let Look { bodies, acting, search, near, mut before, touches, apart, dt, earlier } = self;
         for keys in near.chunks(LANES) {
             let mut one = [search.placed(bodies, keys[0].0); LANES];
             let mut two = [search.placed(bodies, keys[0].1); LANES];
@@ -148,10 +148,7 @@ impl<F: Fn(usize) -> Frame + Copy> Work for Look<'_, F> {
             }
             let mut last = [None; LANES];
             for (last, key) in last.iter_mut().zip(keys) {
-                while before.get(next).is_some_and(|touch| touch.rects < *key) {
-                    next += 1;
-                }
-                *last = before.get(next).filter(|touch| touch.rects == *key);
+                *last = before.of_pair(*key);
             }
             let loyal = Loyal::<V>::of(&last);
             let may = listed.min(loyal.stays.max(-pairs.stay_apart(dt)));

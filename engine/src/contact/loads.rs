@@ -29,7 +29,7 @@ impl World {
     pub fn loads(&self) -> Vec<Load> {
         let Some(contacts) = &self.contacts else { return Vec::new() };
         let rate = f64::from(contacts.plan.substeps) / self.plan.time_step;
-        let pressing = contacts.touches.iter().filter(|touch| touch.push[0] + touch.push[1] > 0.0);
+        let pressing = contacts.remembered().filter(|touch| touch.push[0] + touch.push[1] > 0.0);
         pressing.map(|touch| touch.load(self.plan.origin, rate)).collect()
     }
 }

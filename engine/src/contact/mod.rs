@@ -34,6 +34,7 @@ mod part;
 mod plain;
 mod points;
 mod pulls;
+mod remembered;
 mod rest;
 mod rows;
 mod search;
@@ -62,6 +63,7 @@ use hasten::Hasten;
 use kept::Kept;
 use pairs::Pairs;
 use pulls::Pulls;
+use remembered::Remembered;
 use rest::Rest;
 use rows::{Row, Rows};
 use search::Search;
@@ -86,7 +88,7 @@ pub(crate) struct Contacts {
     width: Width,
     /// Gaps and depths up to this are none \[m\].
     band: f64,
-    /// The touches of this step and of the last, in the order of their rectangles.
+    /// The touches of this step and of the last: those that were found first, in the order of their rectangles.
     touches: Vec<Touch>,
     before: Vec<Touch>,
     /// Pairs of rectangles that may meet within the step.
@@ -182,10 +184,14 @@ impl Contacts {
 
     /// What decides how the world goes on, for its digest.
     pub(crate) fn words(&self) -> impl Iterator<Item = u64> {
-        self.touches
-            .iter()
+        self.remembered()
             .flat_map(Touch::words)
             .chain([u64::from(self.patience) << 1 | u64::from(self.stood && self.plan.sleeping)])
+    }
+
+    /// The touches of the last step, in the order of their rectangles.
+    fn remembered(&self) -> Remembered<'_> {
+        Remembered::new(&self.touches, self.found)
     }
 
     /// The next hit to be told.
@@ -305,7 +311,6 @@ impl Contacts {
         rows.fill(&world.bodies, touches, fast.bodies(), of_touch);
         (self.dt, self.gone) = (dt, 0.0);
         self.keep = libm::exp(-RECOVERY * dt);
-        self.found = self.touches.len();
         self.lonely.clear();
         self.pairs.clear();
         self.round = 0;

@@ -44,9 +44,7 @@ impl Contacts {
                 self.tell(world, k, (point, normal), 0.0);
             }
         }
-        if self.touches.len() > self.found {
-            self.touches.sort_unstable_by_key(|touch| touch.rects);
-        }
+        self.touches[self.found..].sort_unstable_by_key(|touch| touch.rects);
     }
 
     /// Tells of a hit of a touch, at a point from the plan's origin.
