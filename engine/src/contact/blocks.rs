@@ -1,7 +1,9 @@
 //! Touches in blocks of eight that share no body, ready to be solved side by side.
 //!
-//! Touches are given colours in their own order: each the first that neither of its bodies has yet. Touches of one colour share
-//! no mobile body, so it makes no difference which of them is solved first, nor how many at once, nor by which thread.
+//! Touches are laid out in their own order, each in the first of the blocks that are still open which has room and none of its
+//! bodies. So it makes no difference which touch of a block is solved first, nor how many at once; and what lies close together
+//! in a heap, its touches mostly close in the list, is solved soon after each other: in one sweep pushes come far. Blocks of one
+//! colour after the other, each colour from all over the heap, left a tumbling heap a quarter deeper in itself.
 
 use super::rows::{IDLE, Rows};
 use super::touch::{FAR, Touch};
@@ -45,7 +47,7 @@ impl Turned {
     const NOT: Turned = Turned { slips: Eight::ZERO, cut: [Eight::ZERO; 2] };
 }
 
-/// All blocks of a step, colour after colour.
+/// All blocks of a step.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Blocks {
     pub(super) blocks: Vec<Block>,
@@ -55,10 +57,10 @@ pub(super) struct Blocks {
     pub(super) place: Vec<(u32, u8)>,
     /// How many touches are laid out.
     pub(super) count: usize,
-    colour: Vec<u8>,
-    taken: Vec<u64>,
-    counts: Vec<u32>,
-    next: Vec<u32>,
+    /// How many lanes of each are used, of those laid out at first.
+    used: Vec<u8>,
+    /// In which of the open blocks each row stands.
+    standing: Vec<Standing>,
     /// How many lanes of the last block are used, if it is one of those that came later.
     more: Option<usize>,
 }
@@ -66,11 +68,52 @@ pub(super) struct Blocks {
 /// The place of a touch that is not laid out.
 pub(super) const NOWHERE: (u32, u8) = (u32::MAX, 0);
 
-/// Colours that touches share; a body with more touches than this has the others solved one by one.
-const SHARED: usize = 63;
+/// So many blocks are open at a time.
+const OPEN: u32 = 16;
 
-/// The colour of those that are left out.
-const LEFT: u8 = u8::MAX;
+/// In which blocks a row stands: a bit for each that was open when it was last put into one, from the first of them on.
+#[derive(Clone, Copy, Debug)]
+struct Standing {
+    first: u32,
+    blocks: u32,
+}
+
+impl Standing {
+    const NOWHERE: Standing = Standing { first: 0, blocks: 0 };
+
+    /// The same with another block as the first; a row that stands in none from that on stands in one that is closed.
+    fn from(self, first: u32) -> u32 {
+        self.blocks.unbounded_shr(first - self.first)
+    }
+}
+
+/// The blocks that are open: the first, and a bit for each that is full.
+#[derive(Default)]
+struct Open {
+    first: u32,
+    full: u32,
+}
+
+impl Open {
+    /// Takes room beside rows that stand in those of the open blocks: in which of them. The first is closed where there is none.
+    fn take(&mut self, standing: u32) -> u32 {
+        let at = (self.full | standing).trailing_ones();
+        if at < OPEN {
+            return at;
+        }
+        self.first += 1;
+        self.full >>= 1;
+        OPEN - 1
+    }
+
+    /// One of them is full.
+    fn fill(&mut self, at: u32) {
+        self.full |= 1 << at;
+        let closed = self.full.trailing_ones();
+        self.first += closed;
+        self.full >>= closed;
+    }
+}
 
 impl Blocks {
     /// Lays the touches out, with the rows of their bodies; but for those that are `left` out, which are in order.
@@ -81,30 +124,48 @@ impl Blocks {
         rows: &Rows,
         (keep, band): (f64, f64),
     ) {
-        self.colour(of_touch, left, rows);
         self.count = touches.len() - left.len();
         self.more = None;
-        let mut begin = 0;
-        self.next.clear();
-        for (colour, count) in self.counts.iter().enumerate() {
-            self.next.push(begin * LANES as u32);
-            begin += if colour == SHARED { *count } else { count.div_ceil(LANES as u32) };
-        }
         self.blocks.clear();
-        self.blocks.resize(begin as usize, Block::idle());
         self.turned.clear();
         self.place.clear();
-        for ((touch, rows), colour) in touches.iter().zip(of_touch).zip(&self.colour) {
-            if *colour == LEFT {
+        self.used.clear();
+        self.standing.clear();
+        self.standing.resize(rows.rows.len(), Standing::NOWHERE);
+        let mut open = Open::default();
+        let mut left = left.iter().peekable();
+        for (k, (touch, &(a, b))) in touches.iter().zip(of_touch).enumerate() {
+            if left.next_if(|next| **next as usize == k).is_some() {
                 self.place.push(NOWHERE);
                 continue;
             }
-            let at = &mut self.next[*colour as usize];
-            let (block, lane) = (*at / LANES as u32, *at as usize % LANES);
-            *at += if *colour as usize == SHARED { LANES as u32 } else { 1 };
-            self.blocks[block as usize].set(lane, touch, *rows, keep, band);
-            self.place.push((block, lane as u8));
+            let (block, lane) = self.take_lane(&mut open, rows, [a, b]);
+            self.blocks[block as usize].set(lane as usize, touch, (a, b), keep, band);
+            self.place.push((block, lane));
         }
+    }
+
+    /// The block and lane for a touch of those rows.
+    fn take_lane(&mut self, open: &mut Open, rows: &Rows, pair: [u32; 2]) -> (u32, u8) {
+        let mobile = pair.map(|row| rows.mobile_of(row).map(|_| row as usize));
+        let standing = mobile.iter().flatten().fold(0, |all, row| all | self.standing[*row].from(open.first));
+        let at = open.take(standing);
+        for row in mobile.into_iter().flatten() {
+            let standing = &mut self.standing[row];
+            *standing = Standing { first: open.first, blocks: standing.from(open.first) | 1 << at };
+        }
+        let block = open.first + at;
+        if self.blocks.len() <= block as usize {
+            self.blocks.push(Block::idle());
+            self.used.push(0);
+        }
+        let used = &mut self.used[block as usize];
+        let lane = *used;
+        *used += 1;
+        if usize::from(*used) == LANES {
+            open.fill(at);
+        }
+        (block, lane)
     }
 
     /// Lays out one touch more, after all others: in the last block that has room and none of its bodies, if that is one of these.
@@ -127,7 +188,7 @@ impl Blocks {
 
     /// Whether a row stands in any block, of those laid out at first.
     pub(super) fn hold(&self, row: usize) -> bool {
-        self.taken[row] != 0
+        self.standing[row].blocks != 0
     }
 
     /// The block and lane of a touch that is laid out.
@@ -230,31 +291,6 @@ impl Blocks {
                 block.push[k].0[lane] = touch.push[k];
             }
             block.grip.0[lane] = touch.grip;
-        }
-    }
-
-    /// Chooses each touch's colour, and counts how many have each.
-    fn colour(&mut self, of_touch: &[(u32, u32)], left: &[u32], rows: &Rows) {
-        self.taken.clear();
-        self.taken.resize(rows.rows.len(), 0);
-        self.colour.clear();
-        self.counts.clear();
-        let mut left = left.iter().peekable();
-        for (k, &(a, b)) in of_touch.iter().enumerate() {
-            if left.next_if(|next| **next as usize == k).is_some() {
-                self.colour.push(LEFT);
-                continue;
-            }
-            let free = !(self.taken[a as usize] | self.taken[b as usize]);
-            let colour = (free.trailing_zeros() as usize).min(SHARED);
-            for row in [a, b].into_iter().filter(|row| rows.mobile_of(*row).is_some()) {
-                self.taken[row as usize] |= 1 << colour;
-            }
-            if self.counts.len() <= colour {
-                self.counts.resize(colour + 1, 0);
-            }
-            self.counts[colour] += 1;
-            self.colour.push(colour as u8);
         }
     }
 }

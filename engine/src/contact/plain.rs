@@ -151,5 +151,5 @@ fn touches_are_found_as_by_the_plain_way() {
         }
     }
     assert!(count > 20_000 && deep > 500, "{count} touches, {deep} of them deep: crowds in which little is found");
-    assert!(left > 4_000, "{left} pairs that stay apart: crowds in which all touch");
+    assert!(left > 3_500, "{left} pairs that stay apart: crowds in which all touch");
 }

@@ -65,6 +65,8 @@ pub(super) struct Rows {
     /// How many fixed bodies have a row, and which.
     fixed: usize,
     fixed_bodies: Vec<u32>,
+    /// Which of them have a touch.
+    is_touched: Vec<bool>,
     /// The row of each body; `NONE` of those without.
     row_of: Vec<u32>,
     /// How many touches each mobile body has, in the order of `mobile`.
@@ -101,6 +103,8 @@ impl Rows {
             }
         }
         self.fixed = self.rows.len() - IDLE;
+        self.is_touched.clear();
+        self.is_touched.resize(self.fixed, false);
         for body in 0..bodies.len() {
             if self.row_of[body] != NONE && bodies.is_mobile(body) {
                 self.add(bodies, body);
@@ -123,8 +127,9 @@ impl Rows {
     pub(super) fn count_touch(&mut self, touch: &Touch) -> (u32, u32) {
         let rows = [touch.a, touch.b].map(|body| self.row_of[body as usize]);
         for row in rows {
-            if let Some(at) = self.mobile_of(row) {
-                self.degree[at] += 1;
+            match self.mobile_of(row) {
+                Some(at) => self.degree[at] += 1,
+                None => self.is_touched[row as usize - IDLE] = true,
             }
         }
         (rows[0], rows[1])
@@ -148,6 +153,11 @@ impl Rows {
     /// The rows of fixed bodies.
     pub(super) fn of_fixed(&self) -> &[Row] {
         &self.rows[IDLE..IDLE + self.fixed]
+    }
+
+    /// The rows of fixed bodies that have a touch.
+    pub(super) fn of_touched_fixed(&self) -> impl Iterator<Item = &Row> {
+        self.of_fixed().iter().zip(&self.is_touched).filter_map(|(row, is_touched)| is_touched.then_some(row))
     }
 
     pub(super) fn of_fixed_mut(&mut self) -> &mut [Row] {

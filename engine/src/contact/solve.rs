@@ -29,8 +29,11 @@ const FEW: usize = 600;
 /// Changes of velocity below this share of what gravity does in a sub-step, or where there is none of how fast things are, are not
 /// worth another round where things move.
 const GOOD: f64 = 1e-3;
-const LEAST_SWEEPS: usize = 2;
+const LEAST_SWEEPS: usize = 3;
 const MOST_SWEEPS: usize = 16;
+
+/// Sweeps over what pushes have come to while touches were solved.
+const SPREAD_SWEEPS: usize = 2;
 
 /// Sweeps where the pushes of the sub-step before were no help and all begins at nothing.
 const FRESH_SWEEPS: usize = 8;
@@ -134,10 +137,10 @@ impl Contacts {
             }
             self.look(from, h, 0.0);
             self.leave_clear();
-            for sweep in 0..LEAST_SWEEPS {
+            for sweep in 0..SPREAD_SWEEPS {
                 self.sweep(from, sweep % 2 == 1);
             }
-            world.work.touches_solved += (LEAST_SWEEPS * (self.blocks.blocks.len() - from) * LANES) as u64;
+            world.work.touches_solved += (SPREAD_SWEEPS * (self.blocks.blocks.len() - from) * LANES) as u64;
         }
     }
 
