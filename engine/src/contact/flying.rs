@@ -109,13 +109,11 @@ impl Fliers {
         }
     }
 
-    /// Whether contact has made more of the motions than it can: it takes energy, but for what moving fixed bodies give. Where those
-    /// give any to what touches them, they make nothing faster than what they can pass on: a row of bodies between walls that close
-    /// is a toggle, and would fling what slips out of it as fast as one likes.
-    pub(super) fn gained(&self, rows: &Rows, reach: f64) -> bool {
+    /// Whether contact has made more of the motions than it can: it takes energy, but for what fixed bodies give that drive others, at
+    /// that square of a speed. Where those give any, they make nothing faster than what they can pass on: a row of bodies between walls
+    /// that close is a toggle, and would fling what slips out of it as fast as one likes.
+    pub(super) fn gained(&self, rows: &Rows, driven: f64) -> bool {
         let square = |row: &[f64]| row[VX] * row[VX] + row[VZ] * row[VZ];
-        let speed = |row: &Row| square(&row.0) + row.0[SPIN] * row.0[SPIN] * reach * reach;
-        let driven = rows.of_touched_fixed().map(speed).fold(0.0, f64::max);
         let (mut free, mut now, mut fastest_free, mut fastest, mut given) = (0.0, 0.0, 0.0_f64, 0.0_f64, 0.0);
         for (row, flier) in rows.of_mobile().iter().zip(&self.fliers) {
             let (row, [vx, vz, spin]) = (&row.0, flier.free);

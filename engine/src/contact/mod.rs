@@ -130,8 +130,6 @@ pub(crate) struct Contacts {
     farthest: f64,
     /// Whether nothing moved in the step before and nothing has been done since: where sleeping is allowed, all sleeps.
     stood: bool,
-    /// How far a fixed body reaches from its centre at most \[m\].
-    reach: f64,
     /// What is left of an overlap after a step in which it may recover.
     keep: f64,
     /// The hits of this step, the next to be told last.
@@ -173,10 +171,6 @@ impl Contacts {
             smallest: if smallest.is_finite() { smallest } else { 0.0 },
             farthest: (0..bodies.len()).map(|body| bodies.reach(body)).fold(0.0, f64::max),
             stood: false,
-            reach: (0..bodies.len())
-                .filter(|body| !bodies.is_mobile(*body))
-                .map(|body| bodies.reach(body))
-                .fold(0.0, f64::max),
             keep: 0.0,
             untold: Vec::new(),
         }

@@ -155,9 +155,14 @@ impl Rows {
         &self.rows[IDLE..IDLE + self.fixed]
     }
 
-    /// The rows of fixed bodies that have a touch.
-    pub(super) fn of_touched_fixed(&self) -> impl Iterator<Item = &Row> {
-        self.of_fixed().iter().zip(&self.is_touched).filter_map(|(row, is_touched)| is_touched.then_some(row))
+    /// The greatest square of a speed at which fixed bodies that have a touch drive what they touch, by going and by turning.
+    pub(super) fn driven(&self, bodies: &Bodies) -> f64 {
+        let rows = self.of_fixed().iter().zip(&self.fixed_bodies).zip(&self.is_touched);
+        let touched = rows.filter_map(|(row, is_touched)| is_touched.then_some(row));
+        touched.fold(0.0, |most, (Row(row), body)| {
+            let turning = row[SPIN] * bodies.reach(*body as usize);
+            most.max(row[VX] * row[VX] + row[VZ] * row[VZ] + turning * turning)
+        })
     }
 
     pub(super) fn of_fixed_mut(&mut self) -> &mut [Row] {

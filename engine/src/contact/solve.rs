@@ -88,14 +88,19 @@ impl Contacts {
             self.slide();
         }
         // A jam has no solution: pushes grow without end, and do harm once it gives way.
-        if self.fliers.gained(&self.rows, self.reach) {
+        if self.gained(world) {
             self.begin_afresh();
             self.push_on(world, (h, scale), &Budget { swept: FRESH_SWEEPS * self.blocks.count, ..budget });
-            if self.fliers.gained(&self.rows, self.reach) {
+            if self.gained(world) {
                 self.begin_afresh();
                 self.sweep_touches(world, FRESH_SWEEPS);
             }
         }
+    }
+
+    /// Whether contact has made more of the motions than it can.
+    fn gained(&self, world: &World) -> bool {
+        self.fliers.gained(&self.rows, self.rows.driven(&world.bodies))
     }
 
     /// Touches that press are taken as they are midway through the sub-step.
