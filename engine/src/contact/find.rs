@@ -64,14 +64,13 @@ impl Contacts {
         let World { plan, bodies, threads, work, .. } = world;
         let bodies = &*bodies;
         core::mem::swap(&mut self.touches, &mut self.before);
-        let found = core::mem::take(&mut self.found);
         self.touches.clear();
         let acting = Acting { pulls: &self.pulls, on_all: self.pulls.on_all() };
         self.search.pairs((bodies, acting, dt), plan.broad_phase, (self.width, *threads), work);
         let earlier = |body: usize| frame_before(bodies, plan.flight, plan.time_step, body);
-        let Contacts { search, touches, before, apart, width, .. } = self;
+        let Contacts { search, touches, before, apart, width, found, .. } = self;
         let apart = apart.begin();
-        let (search, before, width) = (&*search, Remembered::new(before, found), *width);
+        let (search, before, width) = (&*search, Remembered::new(before, *found), *width);
         let tasks: Vec<_> = threads
             .parts(search.near().len(), LANES, PER_THREAD)
             .into_iter()

@@ -121,7 +121,7 @@ fn assert_stay_apart(world: &World, contacts: &Contacts, pair: (u32, u32), dt: f
 #[test]
 fn touches_are_found_as_by_the_plain_way() {
     let (mut count, mut deep, mut left) = (0, 0, 0);
-    for seed in 0..30 {
+    for seed in 0..32 {
         let mut scene = crowd(seed);
         scene.settings.broad_phase = BroadPhaseChoice::Strips;
         let mut world = World::new(&scene).expect("a valid scene");
@@ -151,5 +151,5 @@ fn touches_are_found_as_by_the_plain_way() {
         }
     }
     assert!(count > 20_000 && deep > 500, "{count} touches, {deep} of them deep: crowds in which little is found");
-    assert!(left > 3_500, "{left} pairs that stay apart: crowds in which all touch");
+    assert!(left > 4_000, "{left} pairs that stay apart: crowds in which all touch");
 }

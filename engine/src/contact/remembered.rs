@@ -13,7 +13,7 @@ pub(super) struct Remembered<'a> {
 impl<'a> Remembered<'a> {
     /// Touches of which the first so many were found, and the others joined them.
     pub(super) fn new(touches: &'a [Touch], found: usize) -> Self {
-        let (found, joined) = touches.split_at(found.min(touches.len()));
+        let (found, joined) = touches.split_at(found);
         Remembered { found, joined }
     }
 

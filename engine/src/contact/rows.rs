@@ -151,7 +151,7 @@ impl Rows {
     }
 
     /// The rows of fixed bodies.
-    pub(super) fn of_fixed(&self) -> &[Row] {
+    fn of_fixed(&self) -> &[Row] {
         &self.rows[IDLE..IDLE + self.fixed]
     }
 
@@ -160,7 +160,7 @@ impl Rows {
         let rows = self.of_fixed().iter().zip(&self.fixed_bodies).zip(&self.is_touched);
         let touched = rows.filter_map(|(row, is_touched)| is_touched.then_some(row));
         touched.fold(0.0, |most, (Row(row), body)| {
-            let turning = row[SPIN] * bodies.reach(*body as usize);
+            let turning = if row[SPIN] == 0.0 { 0.0 } else { row[SPIN] * bodies.reach(*body as usize) };
             most.max(row[VX] * row[VX] + row[VZ] * row[VZ] + turning * turning)
         })
     }
