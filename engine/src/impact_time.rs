@@ -299,11 +299,13 @@ impl<'a> Search<'a> {
         let (w_r, w_o) = (now.paths[r].motion.omega, now.paths[o].motion.omega);
         let u = now.frames[r].inward(now.paths[o].motion.v - now.paths[r].motion.v);
         let n = by.face.normal();
-        other.vertices().map(|vertex| {
+        let mut found = [(0.0, 0.0); 4];
+        for (vertex, found) in other.vertices().into_iter().zip(&mut found) {
             let arm = seen.outward(vertex);
             let p = seen.o + arm;
-            (-by.face.depth_of(rect, p), (u + perp(arm) * w_o - perp(p) * w_r).dot(&n))
-        })
+            *found = (-by.face.depth_of(rect, p), (u + perp(arm) * w_o - perp(p) * w_r).dot(&n));
+        }
+        found
     }
 
     /// The touch that has been reached: at the first of the faces that separate best and are come at.

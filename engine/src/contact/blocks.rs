@@ -59,8 +59,9 @@ pub(super) struct Blocks {
     pub(super) count: usize,
     /// How many lanes of each are used, of those laid out at first.
     used: Vec<u8>,
-    /// In which of the open blocks each row stands.
+    /// In which of the open blocks each row stands; and the rows of mobile bodies that stand in any block, each once.
     standing: Vec<Standing>,
+    rows: Vec<u32>,
     /// How many lanes of the last block are used, if it is one of those that came later.
     more: Option<usize>,
 }
@@ -132,6 +133,7 @@ impl Blocks {
         self.used.clear();
         self.standing.clear();
         self.standing.resize(rows.rows.len(), Standing::NOWHERE);
+        self.rows.clear();
         let mut open = Open::default();
         let mut left = left.iter().peekable();
         for (k, (touch, &(a, b))) in touches.iter().zip(of_touch).enumerate() {
@@ -152,6 +154,9 @@ impl Blocks {
         let at = open.take(standing);
         for row in mobile.into_iter().flatten() {
             let standing = &mut self.standing[row];
+            if standing.blocks == 0 {
+                self.rows.push(row as u32);
+            }
             *standing = Standing { first: open.first, blocks: standing.from(open.first) | 1 << at };
         }
         let block = open.first + at;
@@ -169,7 +174,20 @@ impl Blocks {
     }
 
     /// Lays out one touch more, after all others: in the last block that has room and none of its bodies, if that is one of these.
-    pub(super) fn add(&mut self, k: usize, touch: &Touch, (a, b): (u32, u32), (keep, band): (f64, f64)) {
+    pub(super) fn add(
+        &mut self,
+        (k, touch): (usize, &Touch),
+        rows: &Rows,
+        (a, b): (u32, u32),
+        (keep, band): (f64, f64),
+    ) {
+        self.standing.resize(rows.rows.len(), Standing::NOWHERE);
+        for row in [a, b].into_iter().filter(|row| rows.mobile_of(*row).is_some()) {
+            if !self.hold(row as usize) {
+                self.standing[row as usize].blocks = 1;
+                self.rows.push(row);
+            }
+        }
         let open = self.more.filter(|lane| *lane < LANES && !self.blocks.last().is_some_and(|block| block.has(a, b)));
         let lane = open.unwrap_or_else(|| {
             self.blocks.push(Block::idle());
@@ -186,7 +204,12 @@ impl Blocks {
         self.place[k] = (block as u32, lane as u8);
     }
 
-    /// Whether a row stands in any block, of those laid out at first.
+    /// The rows of mobile bodies that stand in any block.
+    pub(super) fn rows(&self) -> &[u32] {
+        &self.rows
+    }
+
+    /// Whether a mobile body's row stands in any block.
     pub(super) fn hold(&self, row: usize) -> bool {
         self.standing[row].blocks != 0
     }

@@ -77,6 +77,12 @@ fn bound(Motion { v, omega }: Motion, reach: f64, time: f64) -> f64 {
     (v.x.abs() + v.y.abs() + omega.abs() * reach) * time
 }
 
+/// No point of a body is further out than that, nor, of a mobile one, than of any \[m\].
+#[inline]
+fn most(bodies: &Bodies, body: usize, farthest: f64) -> f64 {
+    if bodies.is_mobile(body) { farthest } else { bodies.reach(body) }
+}
+
 /// Whether a body that moves so for a time comes further than half its size.
 fn is_fast(bodies: &Bodies, body: usize, Motion { v, omega }: Motion, time: f64) -> bool {
     (v.norm() + omega.abs() * bodies.reach(body)) * time > bodies.smallest_half(body)
@@ -90,7 +96,7 @@ impl Contacts {
         fast.clear();
         *farthest = 0.0;
         for body in 0..bodies.len() {
-            let far = bound(bodies.motion[body], self.farthest, h);
+            let far = bound(bodies.motion[body], most(bodies, body, self.farthest), h);
             *farthest = farthest.max(far);
             if far > self.smallest && is_fast(bodies, body, bodies.motion[body], h) {
                 fast.push(body as u32);
@@ -176,7 +182,7 @@ impl Contacts {
 
     /// A row whose body is fast by now is followed.
     fn follow_if_fast(&mut self, world: &World, row: u32, h: f64) {
-        if self.note_speed(row, h) <= self.smallest || self.is_fast(row) {
+        if self.note_speed(world, row, h) <= self.smallest || self.is_fast(row) {
             return;
         }
         let motion = self.rows.rows[row as usize].motion();
@@ -191,8 +197,9 @@ impl Contacts {
     }
 
     /// Notes how far a row's body may come in a sub-step as it moves now, and gives it.
-    pub(super) fn note_speed(&mut self, row: u32, h: f64) -> f64 {
-        let far = bound(self.rows.rows[row as usize].motion(), self.farthest, h);
+    pub(super) fn note_speed(&mut self, world: &World, row: u32, h: f64) -> f64 {
+        let farthest = self.rows.body_of(row).map_or(0.0, |body| most(&world.bodies, body, self.farthest));
+        let far = bound(self.rows.rows[row as usize].motion(), farthest, h);
         self.fast.farthest = self.fast.farthest.max(far);
         far
     }

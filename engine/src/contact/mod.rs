@@ -124,7 +124,7 @@ pub(crate) struct Contacts {
     found: usize,
     /// Whether any bodies are laid out for the solver; all others fly on in one go.
     solves: bool,
-    /// Bodies that fly far within a sub-step; the smallest half size of a mobile body, and how far any reaches from its centre \[m\].
+    /// Bodies that fly far within a sub-step; the smallest half size of a mobile body, and how far any such reaches from its centre \[m\].
     fast: Fast,
     smallest: f64,
     farthest: f64,
@@ -138,8 +138,8 @@ pub(crate) struct Contacts {
 
 impl Contacts {
     pub(crate) fn new(plan: ContactPlan, bodies: &Bodies) -> Self {
-        let mobile = (0..bodies.len()).filter(|body| bodies.is_mobile(*body));
-        let smallest = mobile.map(|body| bodies.smallest_half(body)).fold(f64::INFINITY, f64::min);
+        let mobile = || (0..bodies.len()).filter(|body| bodies.is_mobile(*body));
+        let smallest = mobile().map(|body| bodies.smallest_half(body)).fold(f64::INFINITY, f64::min);
         Contacts {
             plan,
             width: Width::best(),
@@ -169,7 +169,7 @@ impl Contacts {
             solves: false,
             fast: Fast::default(),
             smallest: if smallest.is_finite() { smallest } else { 0.0 },
-            farthest: (0..bodies.len()).map(|body| bodies.reach(body)).fold(0.0, f64::max),
+            farthest: mobile().map(|body| bodies.reach(body)).fold(0.0, f64::max),
             stood: false,
             keep: 0.0,
             untold: Vec::new(),

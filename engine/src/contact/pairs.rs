@@ -90,7 +90,7 @@ impl Contacts {
     /// A pair is left to impacts no more.
     fn join_blocks(&mut self, k: usize) {
         self.apart.push_too(&self.rows, self.of_touch[k]);
-        self.blocks.add(k, &self.touches[k], self.of_touch[k], (self.keep, self.band));
+        self.blocks.add((k, &self.touches[k]), &self.rows, self.of_touch[k], (self.keep, self.band));
         if self.touches[k].surface.restitution > 0.0 && !self.is_lonely(k) {
             self.crowd.push(k as u32);
         }

@@ -11,7 +11,7 @@
 use super::blocks::{Block, Blocks, Turned};
 use super::rows::{INVERSE_MASS, INVERSE_MOMENT, Row, Rows, SPIN, VX, VZ};
 use super::sweep::{Arms, Lanes, Response, gather, normal, of, push};
-use crate::lanes::{Eight, Wide};
+use crate::lanes::{Eight, LANES, Wide};
 use crate::width::{Width, Work};
 
 /// How good is good enough: changes of velocity below this share of what gravity does in a sub-step; more where there
@@ -97,15 +97,15 @@ const SHARED_MOMENT: usize = 4;
 impl Rest {
     /// Improves all touches until they are settled; gives how many rounds it took.
     pub(super) fn settle(&mut self, rows: &mut Rows, blocks: &mut Blocks, width: Width, effort: Effort) -> Settled {
-        let Blocks { blocks, turned, .. } = blocks;
         self.begin(rows, blocks);
         let (mut momentum, mut before) = (Momentum::default(), f64::INFINITY);
         let (mut rounds, mut left) = (0, 0.0);
         while rounds < effort.most {
             rounds += 1;
             let share = momentum.share();
-            self.extrapolate(share);
-            let Rest { guesses, now, beyond, .. } = self;
+            let Rest { guesses, now, last, beyond } = self;
+            width.run(Beyond { rows: blocks.rows(), now, last, beyond, share });
+            let Blocks { blocks, turned, .. } = &*blocks;
             let round = Round::<false> { guesses, blocks, turned, from: beyond, to: now, share };
             let (change, back) = if turned.is_empty() { width.run(round) } else { width.run(round.turned()) };
             momentum.go_on(back > 0.0 || change > before);
@@ -118,45 +118,67 @@ impl Rest {
         Settled { rounds, left, enough: left <= effort.enough }
     }
 
-    fn begin(&mut self, rows: &Rows, blocks: &[Block]) {
+    fn begin(&mut self, rows: &Rows, blocks: &Blocks) {
         self.guesses.clear();
-        for block in blocks {
+        for block in &blocks.blocks {
             let x = block.pushes();
             self.guesses.push(Guess { x, last: x });
         }
-        self.now.clear();
-        self.now.extend(rows.rows.iter().enumerate().map(|(k, row)| {
-            let mut row = *row;
-            let share = PARTS * rows.mobile_of(k as u32).map_or(1, |at| rows.degree[at]);
-            row.0[SHARED_MASS] = row.0[INVERSE_MASS] * f64::from(share);
-            row.0[SHARED_MOMENT] = row.0[INVERSE_MOMENT] * f64::from(share);
+        let Rest { now, last, beyond, .. } = self;
+        for motions in [&mut *now, &mut *last, &mut *beyond] {
+            motions.resize(rows.rows.len(), Row([0.0; LANES]));
+        }
+        let first = rows.first();
+        let shared = |k: usize, touches: u32| {
+            let (mut row, share) = (rows.rows[k], f64::from(PARTS * touches));
+            row.0[SHARED_MASS] = row.0[INVERSE_MASS] * share;
+            row.0[SHARED_MOMENT] = row.0[INVERSE_MOMENT] * share;
             row
-        }));
-        self.last.clear();
-        self.last.extend_from_slice(&self.now);
-        self.beyond.clear();
-        self.beyond.extend_from_slice(&self.now);
-    }
-
-    /// The motions from which the next round starts: on beyond the last two.
-    fn extrapolate(&mut self, share: f64) {
-        for ((now, last), beyond) in self.now.iter_mut().zip(&mut self.last).zip(&mut self.beyond) {
-            for q in [VX, VZ, SPIN] {
-                beyond.0[q] = now.0[q] + share * (now.0[q] - last.0[q]);
-            }
-            *last = *now;
-            *now = *beyond;
+        };
+        for k in 0..first {
+            // Rows of nobody and of fixed bodies never move.
+            now[k] = shared(k, 1);
+            beyond[k] = now[k];
+        }
+        for row in blocks.rows() {
+            let k = *row as usize;
+            now[k] = shared(k, rows.degree[k - first]);
+            last[k] = now[k];
         }
     }
 
-    fn end(&mut self, rows: &mut Rows, blocks: &mut [Block]) {
-        for (block, guess) in blocks.iter_mut().zip(&self.guesses) {
+    fn end(&mut self, rows: &mut Rows, blocks: &mut Blocks) {
+        for (block, guess) in blocks.blocks.iter_mut().zip(&self.guesses) {
             block.set_pushes(guess.x);
         }
-        for (row, now) in rows.rows.iter_mut().zip(&self.now) {
-            for q in [VX, VZ, SPIN] {
-                row.0[q] = now.0[q];
-            }
+        for row in blocks.rows() {
+            let now = &self.now[*row as usize];
+            rows.rows[*row as usize].set_motion(now.motion());
+        }
+    }
+}
+
+/// The motions from which the next round starts: on beyond the last two. What does not move of a row stays.
+struct Beyond<'a> {
+    rows: &'a [u32],
+    now: &'a mut [Row],
+    last: &'a mut [Row],
+    beyond: &'a mut [Row],
+    share: f64,
+}
+
+impl Work for Beyond<'_> {
+    type Out = ();
+
+    #[inline(always)]
+    fn run<V: Wide>(self) {
+        let share = V::all(self.share);
+        for row in self.rows {
+            let row = *row as usize;
+            let (now, last) = (V::of(&self.now[row].0), V::of(&self.last[row].0));
+            let beyond = (now + share * (now - last)).eight().0;
+            self.last[row] = self.now[row];
+            (self.now[row].0, self.beyond[row].0) = (beyond, beyond);
         }
     }
 }

@@ -317,8 +317,8 @@ impl Contacts {
             world.bodies.surface[body] = surface;
         }
         let Some(act) = act else { return false };
-        self.note_speed(row_a, h);
-        self.note_speed(row_b, h);
+        self.note_speed(world, row_a, h);
+        self.note_speed(world, row_b, h);
         self.tell(world, k, (act.middle, act.normal), manifold.depth.max(0.0));
         for body in pair {
             self.wake_around(world, body, None);

@@ -120,8 +120,9 @@ impl Contacts {
         if let Some((up, _)) = held {
             change -= up * change.dot(&up).clamp(0.0, pulled);
         }
-        let reach = world.bodies.reach(self.rows.mobile[k] as usize);
-        change.norm().max(turned.abs() * reach) > DEVIATES * pulled
+        let reach = || world.bodies.reach(self.rows.mobile[k] as usize);
+        let limit = DEVIATES * pulled;
+        change.norm() > limit || turned.abs() * reach() > limit
     }
 
     /// Looks again at the pairs of a body that has been given another motion.
@@ -169,7 +170,7 @@ impl Contacts {
         let rows = self.rows.count_touch(&touch);
         touch.count_from(&self.rows.rows[rows.0 as usize].0, &self.rows.rows[rows.1 as usize].0);
         self.apart.push_too(&self.rows, rows);
-        self.blocks.add(self.touches.len(), &touch, rows, (self.keep, self.band));
+        self.blocks.add((self.touches.len(), &touch), &self.rows, rows, (self.keep, self.band));
         if touch.surface.restitution > 0.0 {
             self.crowd.push(self.touches.len() as u32);
         }
