@@ -5,11 +5,26 @@
 pub(crate) struct Bounds(pub(crate) [f64; 4]);
 
 impl Bounds {
+    /// Bounds of nothing: others put to them remain as they are.
+    pub(crate) const NOTHING: Bounds = Bounds([f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY]);
+
     /// Whether they have anything in common; touching counts.
     #[inline(always)]
     pub(crate) fn meet(&self, other: &Bounds) -> bool {
         let ([x0, z0, x1, z1], [other_x0, other_z0, other_x1, other_z1]) = (self.0, other.0);
         (x0 <= other_x1) & (other_x0 <= x1) & (z0 <= other_z1) & (other_z0 <= z1)
+    }
+
+    /// Whether the others lie within them.
+    pub(crate) fn contain(&self, other: &Bounds) -> bool {
+        let ([x0, z0, x1, z1], [other_x0, other_z0, other_x1, other_z1]) = (self.0, other.0);
+        (x0 <= other_x0) & (other_x1 <= x1) & (z0 <= other_z0) & (other_z1 <= z1)
+    }
+
+    /// Bounds of both.
+    pub(crate) fn and(self, other: Bounds) -> Bounds {
+        let ([x0, z0, x1, z1], [other_x0, other_z0, other_x1, other_z1]) = (self.0, other.0);
+        Bounds([x0.min(other_x0), z0.min(other_z0), x1.max(other_x1), z1.max(other_z1)])
     }
 
     /// The greater of width and depth.

@@ -6,12 +6,15 @@
 //! fast is followed from then on.
 //!
 //! What is not fast and touches others is held by them: nothing pulls at it on its way to where it is met.
+//!
+//! In a crowd of fast bodies impacts would never end, each a little weaker than the one before. Two that touch and hardly come
+//! towards each other are left to the pushes, and what has met many mobile bodies within a sub-step is followed to fixed ones only.
 
 use super::Contacts;
+use super::by_row::ByRow;
 use super::meeting::Two;
 use super::rows::Row;
 use crate::bodies::{Bodies, Motion};
-use crate::broad_phase::bounds::sweep;
 use crate::broad_phase::met::Bounds;
 use crate::flight::{Path, Pull};
 use crate::world::World;
@@ -22,42 +25,48 @@ const MOST_STRIKES: usize = 64;
 /// Bodies come no further in a sub-step than this many times as far as in the one before, but by impacts.
 const MORE: f64 = 2.0;
 
-/// A pair meets no more often than this within that share of a step: corner after corner where it lands flat. What goes on coming
-/// is left to the pushes.
-const CORNERS: usize = 8;
-const AGAIN: f64 = 1e-9;
-
 /// A meeting foreseen, or one that has been.
 #[derive(Clone, Copy, Debug)]
-struct Meets {
+pub(super) struct Meets {
     /// From the start of the sub-step \[s\].
-    time: f64,
-    rects: (u32, u32),
+    pub(super) time: f64,
+    pub(super) rects: (u32, u32),
 }
 
 /// What is known of whom a fast body meets next.
 #[derive(Clone, Copy, Debug)]
-enum Foreseen {
+pub(super) enum Foreseen {
     NotYet,
     Nobody,
     This(Meets),
 }
 
+/// A body that is followed.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Followed {
+    pub(super) row: u32,
+    /// Whom it meets next, and how often it has met mobile bodies.
+    pub(super) next: Foreseen,
+    pub(super) strikes: u32,
+    /// All that it sweeps over in what is left of the sub-step, and whether it leaves what it was taken to sweep over when the step
+    /// began.
+    pub(super) swept: Bounds,
+    pub(super) strays: bool,
+}
+
 /// The fast bodies of a sub-step.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Fast {
-    /// Their rows, and whom each meets next.
-    rows: Vec<u32>,
-    next: Vec<Foreseen>,
-    /// All that each sweeps over in what is left of the sub-step; and by row, whether it is one of them.
-    swept: Vec<Bounds>,
+    pub(super) followed: Vec<Followed>,
+    /// By row, whether it is one of them.
     is_fast: Vec<bool>,
     /// How far any body may come in a sub-step at most, when last looked at \[m\].
     farthest: f64,
-    /// Who has met, and when.
-    met: Vec<Meets>,
+    /// Who has met, and when; and touches by their rows.
+    pub(super) met: Vec<Meets>,
+    pub(super) by_row: ByRow,
     /// Rectangles that may be met.
-    near: Vec<u32>,
+    pub(super) near: Vec<u32>,
     /// The bodies that are fast as the part of the step begins.
     bodies: Vec<u32>,
     is_near: Vec<bool>,
@@ -115,10 +124,10 @@ impl Contacts {
     }
 
     /// The touch of two rectangles, if they have one.
-    fn touch_of(&self, rects: (u32, u32)) -> Option<usize> {
-        let (found, later) = self.touches.split_at(self.found);
-        let of_later = || later.iter().position(|touch| touch.rects == rects).map(|at| self.found + at);
-        found.binary_search_by_key(&rects, |touch| touch.rects).ok().or_else(of_later)
+    pub(super) fn touch_of(&self, rects: (u32, u32)) -> Option<usize> {
+        let rows = [rects.0, rects.1].map(|rect| self.rows.of(self.search.body_of(rect) as u32));
+        let row = rows.into_iter().flatten().find(|row| self.rows.mobile_of(*row).is_some())?;
+        self.fast.by_row.of(row).find(|k| self.touches[*k].rects == rects)
     }
 
     /// Follows fast bodies through the sub-step.
@@ -127,11 +136,10 @@ impl Contacts {
         if self.fast.farthest * MORE <= self.smallest {
             return;
         }
-        let Fast { rows, next, swept, met, is_fast, farthest, .. } = &mut self.fast;
-        rows.clear();
-        next.clear();
-        swept.clear();
+        let Fast { followed, met, by_row, is_fast, farthest, .. } = &mut self.fast;
+        followed.clear();
         met.clear();
+        by_row.clear();
         is_fast.clear();
         is_fast.resize(self.rows.rows.len(), false);
         *farthest = 0.0;
@@ -139,7 +147,7 @@ impl Contacts {
             self.follow_if_fast(world, row, h);
         }
         let mut strikes = 0;
-        while strikes < MOST_STRIKES * self.fast.rows.len() {
+        while strikes < MOST_STRIKES * self.fast.followed.len() {
             self.foresee(world, h);
             let Some(next) = self.earliest() else {
                 self.look_at_fast(world);
@@ -187,10 +195,8 @@ impl Contacts {
         }
         let motion = self.rows.rows[row as usize].motion();
         if self.rows.body_of(row).is_some_and(|body| is_fast(&world.bodies, body, motion, h)) {
-            let Fast { rows, next, swept, is_fast, .. } = &mut self.fast;
-            rows.push(row);
-            next.push(Foreseen::NotYet);
-            swept.push(Bounds([0.0; 4]));
+            let Fast { followed, is_fast, .. } = &mut self.fast;
+            followed.push(Followed { row, next: Foreseen::NotYet, strikes: 0, swept: Bounds::NOTHING, strays: false });
             is_fast.resize(self.rows.rows.len(), false);
             is_fast[row as usize] = true;
         }
@@ -208,101 +214,27 @@ impl Contacts {
         self.fast.is_fast.get(row as usize).is_some_and(|is_fast| *is_fast)
     }
 
-    /// Finds out whom fast bodies meet next, where that is not known.
-    fn foresee(&mut self, world: &mut World, h: f64) {
-        let unknown = |fast: &Fast, at: usize| matches!(fast.next[at], Foreseen::NotYet);
-        for at in 0..self.fast.rows.len() {
-            if unknown(&self.fast, at) {
-                self.fast.swept[at] = self.sweep_of(world, self.fast.rows[at], h);
-            }
-        }
-        for at in 0..self.fast.rows.len() {
-            if unknown(&self.fast, at) {
-                let found = self.next_of(world, at, h);
-                self.fast.next[at] = found.map_or(Foreseen::Nobody, Foreseen::This);
-            }
-        }
-    }
-
-    /// All that the body of a row sweeps over in what is left of the sub-step.
-    fn sweep_of(&self, world: &World, row: u32, h: f64) -> Bounds {
-        let nothing = Bounds([f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY]);
-        let Some(body) = self.rows.body_of(row) else { return nothing };
-        let (path, left) = (self.path_of(world, body), h - self.fliers.spent[row as usize]);
-        world.bodies.rects_of(body).iter().fold(nothing, |Bounds([x0, z0, x1, z1]), rect| {
-            let (low, high) = sweep(&path, rect, left);
-            Bounds([x0.min(low.x), z0.min(low.y), x1.max(high.x), z1.max(high.y)])
-        })
-    }
-
+    /// The next impact of all.
     fn earliest(&self) -> Option<Meets> {
-        let all =
-            self.fast.next.iter().filter_map(|next| if let Foreseen::This(meets) = next { Some(*meets) } else { None });
-        all.reduce(|first, next| if next.time < first.time { next } else { first })
-    }
-
-    /// Whom one of the fast bodies meets next within the sub-step, as all fly by now.
-    fn next_of(&mut self, world: &mut World, at: usize, h: f64) -> Option<Meets> {
-        let row = self.fast.rows[at];
-        let body = self.rows.body_of(row)?;
-        let (spent, path) = (self.fliers.spent[row as usize], self.path_of(world, body));
-        let mut near = core::mem::take(&mut self.fast.near);
-        let mut first: Option<Meets> = None;
-        for rect in world.bodies.first_rect[body]..world.bodies.first_rect[body + 1] {
-            let (low, high) = sweep(&path, &world.bodies.rects[rect as usize], h - spent);
-            near.clear();
-            self.search.around(
-                (rect, Bounds([low.x, low.y, high.x, high.y])),
-                world.plan.broad_phase,
-                &mut near,
-                &mut world.work,
-            );
-            for (other, _) in
-                self.fast.rows.iter().zip(&self.fast.swept).filter(|(_, swept)| swept.meet(&self.fast.swept[at]))
-            {
-                let Some(other) = self.rows.body_of(*other).filter(|other| *other != body) else { continue };
-                if world.bodies.is_mobile(other) || world.bodies.is_mobile(body) {
-                    near.extend(world.bodies.first_rect[other]..world.bodies.first_rect[other + 1]);
-                }
-            }
-            near.sort_unstable();
-            near.dedup();
-            for other in &near {
-                let rects = (rect.min(*other), rect.max(*other));
-                let until = first.map_or(h, |first| first.time);
-                if let Some(time) = self.meets_fast(world, rects, until) {
-                    first = Some(Meets { time, rects });
-                }
-            }
-        }
-        self.fast.near = near;
-        first
-    }
-
-    /// When two rectangles meet, before a time of the sub-step.
-    fn meets_fast(&self, world: &mut World, rects: (u32, u32), until: f64) -> Option<f64> {
-        let (from, paths) = self.paths_together(world, rects);
-        if self.touch_of(rects).is_some_and(|k| self.is_pressing(world, k, &paths)) {
-            return None;
-        }
-        world.work.touches_sought += 1;
-        let time = from + self.two(world, rects).meet(&paths, until - from)?.0;
-        let soon = self.fast.met.iter().filter(|met| met.rects == rects && met.time + AGAIN * self.dt >= time);
-        (time < until && soon.count() < CORNERS).then_some(time)
+        let foreseen = self.fast.followed.iter().filter_map(|followed| match followed.next {
+            Foreseen::This(meets) => Some(meets),
+            Foreseen::NotYet | Foreseen::Nobody => None,
+        });
+        foreseen.reduce(|first, next| if next.time < first.time { next } else { first })
     }
 
     /// Whether a touch has pressed and is still in touch.
-    fn is_pressing(&self, world: &World, k: usize, paths: &[Path; 2]) -> bool {
+    pub(super) fn is_pressing(&self, world: &World, k: usize, paths: &[Path; 2]) -> bool {
         self.blocks.presses(k) && self.two(world, self.touches[k].rects).depth(paths) >= -self.band
     }
 
     /// Two rectangles, the earlier created first.
-    fn two<'a>(&self, world: &'a World, rects: (u32, u32)) -> Two<'a> {
+    pub(super) fn two<'a>(&self, world: &'a World, rects: (u32, u32)) -> Two<'a> {
         Two::between(&world.bodies, [rects.0, rects.1].map(|rect| (self.search.body_of(rect), rect as usize)))
     }
 
     /// The bodies of two rectangles as they fly from a moment of the sub-step that both have come to, and which that is.
-    fn paths_together(&self, world: &World, rects: (u32, u32)) -> (f64, [Path; 2]) {
+    pub(super) fn paths_together(&self, world: &World, rects: (u32, u32)) -> (f64, [Path; 2]) {
         let bodies = [rects.0, rects.1].map(|rect| self.search.body_of(rect));
         let spent = bodies.map(|body| self.rows.of(body as u32).map_or(0.0, |row| self.fliers.spent[row as usize]));
         let from = spent[0].max(spent[1]);
@@ -328,19 +260,22 @@ impl Contacts {
         self.fast.met.push(next);
         let two = self.two(world, next.rects);
         let Some((after, manifold)) = two.meet(&paths, h - from) else {
-            self.forget(bodies);
+            self.forget(bodies, false);
             return;
         };
         let touch = two.touch_at(&paths, after, &manifold);
         for body in bodies {
             self.fly_to(world, body, from + after);
         }
-        let k = self.touch_of(next.rects).unwrap_or_else(|| self.add_touch(world, touch));
+        let k = self.touch_of(next.rects).unwrap_or_else(|| {
+            self.apart.join(next.rects);
+            self.add_touch(world, touch)
+        });
         let moved = paths.map(|path| path.after(after));
         let moved = if self.touches[k].a as usize == bodies[0] { moved } else { [moved[1], moved[0]] };
         self.exchange(world, k, (&manifold, &moved), h);
         self.look_again(world, k);
-        self.forget(bodies);
+        self.forget(bodies, bodies.into_iter().all(|body| world.bodies.is_mobile(body)));
         for row in bodies.map(|body| self.rows.of(body as u32)).into_iter().flatten() {
             self.follow_if_fast(world, row, h);
         }
@@ -355,14 +290,16 @@ impl Contacts {
         self.book_ahead(world, row, (more, !held));
     }
 
-    /// What was foreseen of these bodies holds no more.
-    fn forget(&mut self, bodies: [usize; 2]) {
+    /// Two bodies have met: what was foreseen of them holds no more.
+    fn forget(&mut self, bodies: [usize; 2], are_mobile: bool) {
         let concerns = |rect: u32| bodies.contains(&self.search.body_of(rect));
-        for (row, next) in self.fast.rows.iter().zip(&mut self.fast.next) {
-            let own = self.rows.body_of(*row).is_some_and(|body| bodies.contains(&body));
-            let other = matches!(next, Foreseen::This(meets) if concerns(meets.rects.0) || concerns(meets.rects.1));
+        for followed in &mut self.fast.followed {
+            let own = self.rows.body_of(followed.row).is_some_and(|body| bodies.contains(&body));
+            followed.strikes += u32::from(own && are_mobile);
+            let other =
+                matches!(followed.next, Foreseen::This(meets) if concerns(meets.rects.0) || concerns(meets.rects.1));
             if own || other {
-                *next = Foreseen::NotYet;
+                followed.next = Foreseen::NotYet;
             }
         }
     }

@@ -16,8 +16,10 @@
 //! without contacts has no sub-steps.
 
 mod abreast;
+mod ahead;
 mod blocks;
 mod booked;
+mod by_row;
 mod fast;
 mod find;
 mod flying;

@@ -88,6 +88,11 @@ impl Search {
         near.extend(self.around.pairs().iter().map(|(one, two)| if *one == rect { *two } else { *one }));
     }
 
+    /// Whether bounds lie within those that a rectangle was taken to sweep over.
+    pub(super) fn foresaw(&self, rect: u32, bounds: Bounds) -> bool {
+        self.bounds[rect as usize].contain(&bounds)
+    }
+
     /// Whose a rectangle is.
     pub(super) fn body_of(&self, rect: u32) -> usize {
         self.owners[rect as usize].body()

@@ -48,6 +48,13 @@ impl Apart {
         &self.pairs
     }
 
+    /// The pair of two rectangles, if it is one of these, has become a touch.
+    pub(super) fn join(&mut self, rects: (u32, u32)) {
+        if let Ok(pair) = self.pairs.binary_search(&rects) {
+            self.woken[pair] = true;
+        }
+    }
+
     /// Links every body to its pairs.
     pub(super) fn link(&mut self, search: &Search, bodies: usize) {
         self.woken.clear();
