@@ -7,8 +7,9 @@
 //!
 //! What is not fast and touches others is held by them: nothing pulls at it on its way to where it is met.
 //!
-//! In a crowd of fast bodies impacts would never end, each a little weaker than the one before. Two that touch and hardly come
-//! towards each other are left to the pushes, and what has met many mobile bodies within a sub-step is followed to fixed ones only.
+//! In a crowd of fast bodies impacts that take energy would never end, each a little weaker than the one before. Two that touch and
+//! hardly come towards each other are left to the pushes, and what has met mobile bodies so many times within a sub-step is followed
+//! to fixed ones only.
 
 use super::Contacts;
 use super::by_row::ByRow;
@@ -45,7 +46,7 @@ pub(super) enum Foreseen {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Followed {
     pub(super) row: u32,
-    /// Whom it meets next, and how often it has met mobile bodies.
+    /// Whom it meets next, and how often it has met mobile bodies and lost by it.
     pub(super) next: Foreseen,
     pub(super) strikes: u32,
     /// All that it sweeps over in what is left of the sub-step, and whether it leaves what it was taken to sweep over when the step
@@ -275,7 +276,8 @@ impl Contacts {
         let moved = if self.touches[k].a as usize == bodies[0] { moved } else { [moved[1], moved[0]] };
         self.exchange(world, k, (&manifold, &moved), h);
         self.look_again(world, k);
-        self.forget(bodies, bodies.into_iter().all(|body| world.bodies.is_mobile(body)));
+        let weakens = self.touches[k].surface.restitution < 1.0;
+        self.forget(bodies, weakens && bodies.into_iter().all(|body| world.bodies.is_mobile(body)));
         for row in bodies.map(|body| self.rows.of(body as u32)).into_iter().flatten() {
             self.follow_if_fast(world, row, h);
         }
@@ -291,11 +293,11 @@ impl Contacts {
     }
 
     /// Two bodies have met: what was foreseen of them holds no more.
-    fn forget(&mut self, bodies: [usize; 2], are_mobile: bool) {
+    fn forget(&mut self, bodies: [usize; 2], counts: bool) {
         let concerns = |rect: u32| bodies.contains(&self.search.body_of(rect));
         for followed in &mut self.fast.followed {
             let own = self.rows.body_of(followed.row).is_some_and(|body| bodies.contains(&body));
-            followed.strikes += u32::from(own && are_mobile);
+            followed.strikes += u32::from(own && counts);
             let other =
                 matches!(followed.next, Foreseen::This(meets) if concerns(meets.rects.0) || concerns(meets.rects.1));
             if own || other {
