@@ -68,7 +68,7 @@ impl Contacts {
         let acting = Acting { pulls: &self.pulls, on_all: self.pulls.on_all() };
         self.search.pairs((bodies, acting, dt), plan.broad_phase, (self.width, *threads), work);
         let earlier = |body: usize| frame_before(bodies, plan.flight, plan.time_step, body);
-        let Contacts { search, touches, before, apart, width, found, .. } = self;
+        let Contacts { search, touches, before, apart, shares, width, found, .. } = self;
         let apart = apart.begin();
         let (search, before, width) = (&*search, Remembered::new(before, *found), *width);
         let tasks: Vec<_> = threads
@@ -82,34 +82,32 @@ impl Contacts {
                 }
             })
             .collect();
-        share(tasks, touches, apart);
+        share(tasks, touches, apart, shares);
         self.found = self.touches.len();
         work.pairs_listed += self.touches.len() as u64;
     }
 }
 
+/// What a task has found: touches, and pairs that stay apart.
+pub(super) type Found = (Vec<Touch>, Vec<(u32, u32)>);
+
 /// The first task finds what it finds right into the lists, the others into lists of their own, which are put behind in order.
-fn share<F>(tasks: Vec<F>, touches: &mut Vec<Touch>, apart: &mut Vec<(u32, u32)>)
+fn share<F>(tasks: Vec<F>, touches: &mut Vec<Touch>, apart: &mut Vec<(u32, u32)>, more: &mut Vec<Found>)
 where
     F: FnOnce(&mut Vec<Touch>, &mut Vec<(u32, u32)>) + Send,
 {
-    let mut lists: Vec<_> = tasks.iter().map(|_| (Vec::new(), Vec::new())).collect();
-    if let Some(first) = lists.first_mut() {
-        *first = (core::mem::take(touches), core::mem::take(apart));
-    }
-    let tasks = tasks.into_iter().zip(lists).map(|(task, (mut touches, mut apart))| {
-        move || {
-            task(&mut touches, &mut apart);
-            (touches, apart)
-        }
+    more.resize_with(tasks.len().saturating_sub(1), Found::default);
+    let own = more.iter_mut().map(|(touches, apart)| {
+        touches.clear();
+        apart.clear();
+        (touches, apart)
     });
-    let mut found = Threads::share(tasks.collect()).into_iter();
-    if let Some(first) = found.next() {
-        (*touches, *apart) = first;
-    }
-    for (more_touches, more_apart) in found {
-        touches.extend(more_touches);
-        apart.extend(more_apart);
+    let lists = core::iter::once((&mut *touches, &mut *apart)).chain(own);
+    let tasks = tasks.into_iter().zip(lists).map(|(task, (touches, apart))| move || task(touches, apart));
+    Threads::share(tasks.collect());
+    for (more_touches, more_apart) in more {
+        touches.extend_from_slice(more_touches);
+        apart.extend_from_slice(more_apart);
     }
 }
 

@@ -6,7 +6,7 @@ use crate::bodies::{Bodies, Motion};
 use crate::detect::manifold::{Manifold, Placed, Point};
 use crate::detect::near::{Before, meet};
 use crate::detect::touch::at_face;
-use crate::detect::{overlap, seams};
+use crate::detect::{Face, overlap, seams};
 use crate::flight::{Change, Path};
 use crate::frame::Frame;
 use crate::impact_time::{Flier, Touch as Found, first_open_touch};
@@ -14,6 +14,19 @@ use crate::world::World;
 
 /// Rectangles deeper in each other than this share of the smaller one do not come to touch any more; they are parted.
 const OVERLAPPED: f64 = 1e-9;
+
+/// At which face two rectangles meet.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Way {
+    of_first: bool,
+    face: Face,
+}
+
+impl Way {
+    fn of(found: &Found) -> Way {
+        Way { of_first: found.face_of_first, face: found.face }
+    }
+}
 
 /// Two rectangles with their bodies: of a touch, the reference first, or any.
 pub(super) struct Two<'a> {
@@ -44,15 +57,29 @@ impl<'a> Two<'a> {
         OVERLAPPED * self.rect(0).half().min().min(self.rect(1).half().min())
     }
 
+    /// Whether they are in each other, and do not come to touch any more.
+    pub(super) fn overlap(&self, paths: &[Path; 2]) -> bool {
+        self.depth(paths) > self.least_depth()
+    }
+
     /// When and where they meet within a time, as their bodies fly; `None` where they overlap already.
     pub(super) fn meet(&self, paths: &[Path; 2], left: f64) -> Option<(f64, Manifold)> {
-        if self.depth(paths) > self.least_depth() {
-            return None;
-        }
+        let (time, way) = if self.overlap(paths) { None } else { self.way(paths, left) }?;
+        Some((time, self.met(paths, (time, way))))
+    }
+
+    /// When and how they meet within a time, where they do not overlap.
+    pub(super) fn way(&self, paths: &[Path; 2], left: f64) -> Option<(f64, Way)> {
         let [a, b] = [0, 1].map(|k| Flier { path: paths[k], rect: *self.rect(k) });
-        let found = first_open_touch(&a, &b, left, |found, frames| self.contact(found, frames).0)?;
-        let frames = paths.map(|path| path.after(found.time).frame);
-        Some((found.time, self.contact(&found, [&frames[0], &frames[1]]).1))
+        let hides = |found: &Found, frames: [&Frame; 2]| self.contact(Way::of(found), frames).0;
+        let found = first_open_touch(&a, &b, left, hides)?;
+        Some((found.time, Way::of(&found)))
+    }
+
+    /// Where they touch once they have met so.
+    pub(super) fn met(&self, paths: &[Path; 2], (time, way): (f64, Way)) -> Manifold {
+        let frames = paths.map(|path| path.after(time).frame);
+        self.contact(way, [&frames[0], &frames[1]]).1
     }
 
     /// The touch of the moment at which they meet, as if counted from when their bodies set out on their paths.
@@ -83,11 +110,11 @@ impl<'a> Two<'a> {
         [0, 1].map(|k| Placed { body: self.body[k], frame: frames[k], index: self.index[k], rect: self.rect(k) })
     }
 
-    /// The contact at the face that a search found.
-    fn contact(&self, found: &Found, frames: [&Frame; 2]) -> (bool, Manifold) {
+    /// The contact at the face at which they meet, and whether a seam hides it.
+    fn contact(&self, way: Way, frames: [&Frame; 2]) -> (bool, Manifold) {
         let [one, two] = self.placed(frames);
-        let (reference, owner) = if found.face_of_first { (one, two) } else { (two, one) };
-        let manifold = at_face(reference, owner, found.face);
+        let (reference, owner) = if way.of_first { (one, two) } else { (two, one) };
+        let manifold = at_face(reference, owner, way.face);
         (seams::hides(&self.bodies.seams, reference, owner, &manifold), manifold)
     }
 }
@@ -95,14 +122,15 @@ impl<'a> Two<'a> {
 /// When and where the two rectangles of a touch meet within a time: at once where they overlap.
 pub(super) fn meeting(world: &mut World, touch: &Touch, paths: &[Path; 2], left: f64) -> Option<(f64, Manifold)> {
     let two = Two::of(&world.bodies, touch);
-    if two.depth(paths) > two.least_depth() {
+    if two.overlap(paths) {
         let before = Before { of_first: true, face: touch.face, normal: touch.n };
         let [one, other] = two.placed([&paths[0].frame, &paths[1].frame]);
         let manifold = meet(&world.bodies, (one, other), 0.0, Some(&before), |body| world.bodies.frame[body])?;
         return Some((0.0, manifold));
     }
     world.work.touches_sought += 1;
-    two.meet(paths, left)
+    let (time, way) = two.way(paths, left)?;
+    Some((time, two.met(paths, (time, way))))
 }
 
 /// Where two rectangles will meet soon, taken to meet there at once: those of their points that `come`.

@@ -97,6 +97,8 @@ pub(crate) struct Contacts {
     search: Search,
     /// Pairs that are near and stay apart, as far as can be told when the step begins.
     apart: Apart,
+    /// What threads other than the first find, kept for its room.
+    shares: Vec<find::Found>,
     /// The part of the step that is being solved, and how much of it is over \[s\].
     dt: f64,
     gone: f64,
@@ -150,6 +152,7 @@ impl Contacts {
             before: Vec::new(),
             search: Search::default(),
             apart: Apart::default(),
+            shares: Vec::new(),
             dt: 0.0,
             gone: 0.0,
             pulls: Pulls::new(bodies),

@@ -3,16 +3,35 @@
 //! When the next impact of such a pair is due is known from where it flies; until then the sub-steps pass it by.
 
 use super::Contacts;
-use super::strike::MOST_STRIKES;
+use super::meeting::{Two, Way};
+use super::strike::{MOST_STRIKES, Meets};
+use crate::threads::Threads;
 use crate::world::World;
+
+/// Fewer pairs than so many for a thread are not worth being shared out.
+const PAIRS_PER_THREAD: usize = 512;
+
+/// The next impact of a pair.
+#[derive(Clone, Copy, Debug)]
+struct Due {
+    /// When it is due at the earliest, from the start of the part of the step \[s\].
+    time: f64,
+    /// How the pair meets then; not known, or at once where its rectangles overlap, without.
+    way: Option<Way>,
+}
+
+impl Due {
+    /// It is to be looked for.
+    const UNKNOWN: Due = Due { time: 0.0, way: None };
+    const NEVER: Due = Due { time: f64::INFINITY, way: None };
+}
 
 /// The pairs that are left to impacts.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Pairs {
     /// By their touches, in order.
     touches: Vec<u32>,
-    /// When the next impact of each is due at the earliest, from the start of the part of the step \[s\].
-    due: Vec<f64>,
+    due: Vec<Due>,
 }
 
 impl Pairs {
@@ -23,7 +42,7 @@ impl Pairs {
 
     pub(super) fn push(&mut self, touch: usize) {
         self.touches.push(touch as u32);
-        self.due.push(0.0);
+        self.due.push(Due::UNKNOWN);
     }
 
     /// The touches that are left out of the blocks.
@@ -45,13 +64,53 @@ impl Contacts {
 
     /// Impacts of pairs within the sub-step.
     pub(super) fn strike_pairs(&mut self, world: &mut World, h: f64) {
-        for at in 0..self.pairs.touches.len() {
-            let k = self.pairs.touches[at] as usize;
-            if self.pairs.due[at] > self.gone + h || self.blocks.lane(k).is_some() {
-                continue;
-            }
-            self.pairs.due[at] = self.strike_pair(world, k, h);
+        if self.gone == 0.0 {
+            self.foresee_pairs(world, h);
         }
+        for at in 0..self.pairs.touches.len() {
+            let (k, due) = (self.pairs.touches[at] as usize, self.pairs.due[at]);
+            if due.time <= self.gone + h && self.blocks.lane(k).is_none() {
+                self.pairs.due[at] = self.strike_pair(world, k, due, h);
+            }
+        }
+    }
+
+    /// Looks for the next impacts of all pairs at once: none changes what another does.
+    fn foresee_pairs(&mut self, world: &mut World, h: f64) {
+        let Pairs { touches, mut due } = core::mem::take(&mut self.pairs);
+        let (contacts, scene) = (&*self, &*world);
+        let mut rest = &mut due[..];
+        let mut tasks = Vec::new();
+        for part in world.threads.parts(touches.len(), 1, PAIRS_PER_THREAD) {
+            let (due, others) = rest.split_at_mut(part.len());
+            rest = others;
+            let touches = &touches[part];
+            tasks.push(move || {
+                let mut sought = 0;
+                for (due, k) in due.iter_mut().zip(touches) {
+                    *due = contacts.next_of_pair(scene, *k as usize, h, &mut sought);
+                }
+                sought
+            });
+        }
+        let sought: u64 = Threads::share(tasks).into_iter().sum();
+        world.work.touches_sought += sought;
+        self.pairs = Pairs { touches, due };
+    }
+
+    /// When and how a pair meets next, as its bodies fly by now.
+    fn next_of_pair(&self, world: &World, k: usize, h: f64, sought: &mut u64) -> Due {
+        let (spent, touch) = (self.ahead(k), &self.touches[k]);
+        let left = self.dt - self.gone - spent;
+        if touch.met || !self.is_lonely(k) || !self.may_strike(k, left, h) {
+            return Due::NEVER;
+        }
+        let (two, paths) = (Two::of(&world.bodies, touch), self.paths(world, k, [true; 2]));
+        if two.overlap(&paths) {
+            return Due { time: self.gone + spent, way: None };
+        }
+        *sought += 1;
+        two.way(&paths, left).map_or(Due::NEVER, |(time, way)| Due { time: self.gone + spent + time, way: Some(way) })
     }
 
     /// Pairs whose bodies have come to touch others are left to impacts no more.
@@ -64,27 +123,40 @@ impl Contacts {
         }
     }
 
-    /// Impacts of a pair within the sub-step; gives when the next is due.
-    fn strike_pair(&mut self, world: &mut World, k: usize, h: f64) -> f64 {
+    /// Impacts of a pair within the sub-step, the next as it is foreseen; gives the one after.
+    fn strike_pair(&mut self, world: &mut World, k: usize, mut next: Due, h: f64) -> Due {
         for _ in 0..MOST_STRIKES {
-            let spent = self.ahead(k);
-            let left = self.dt - self.gone - spent;
-            if self.touches[k].met || !self.is_lonely(k) || !self.may_strike(k, left, h) {
-                return f64::INFINITY;
+            if next.way.is_none() {
+                let mut sought = 0;
+                next = self.next_of_pair(world, k, h, &mut sought);
+                world.work.touches_sought += sought;
             }
-            let Some(meets) = self.meets(world, k, [true; 2], left) else { return f64::INFINITY };
-            if spent + meets.time > h {
-                return self.gone + spent + meets.time;
+            if next.time > self.gone + h {
+                return next;
             }
+            if !self.is_lonely(k) {
+                return Due::NEVER;
+            }
+            let Some(meets) = self.meets_as_foreseen(world, k, next) else { return Due::NEVER };
             if !self.strike_at(world, k, [true; 2], &meets, h) {
-                return self.gone + 2.0 * h;
+                return Due { time: self.gone + 2.0 * h, way: None };
             }
             let met = self.touches[k].surface.restitution == 0.0;
             self.look_again(world, k);
             self.touches[k].met = met;
+            next = Due::UNKNOWN;
         }
         self.join_blocks(k);
-        f64::INFINITY
+        Due::NEVER
+    }
+
+    /// The meeting of a pair that was foreseen; found anew where its rectangles overlap.
+    fn meets_as_foreseen(&self, world: &mut World, k: usize, due: Due) -> Option<Meets> {
+        let Some(way) = due.way else { return self.meets(world, k, [true; 2], 0.0) };
+        let time = (due.time - self.gone - self.ahead(k)).max(0.0);
+        let paths = self.paths(world, k, [true; 2]);
+        let manifold = Two::of(&world.bodies, &self.touches[k]).met(&paths, (time, way));
+        Some(Meets { paths, time, manifold })
     }
 
     /// A pair is left to impacts no more.

@@ -26,9 +26,9 @@ const RESTS: f64 = 2.0;
 
 /// A meeting to come: how the bodies fly to it, how long \[s\], and where they touch then.
 pub(super) struct Meets {
-    paths: [Path; 2],
+    pub(super) paths: [Path; 2],
     pub(super) time: f64,
-    manifold: Manifold,
+    pub(super) manifold: Manifold,
 }
 
 impl Contacts {
@@ -233,7 +233,7 @@ impl Contacts {
     }
 
     /// How the bodies of a touch fly on from where they are; those that do not fly only move on.
-    fn paths(&self, world: &World, k: usize, flies: [bool; 2]) -> [Path; 2] {
+    pub(super) fn paths(&self, world: &World, k: usize, flies: [bool; 2]) -> [Path; 2] {
         let touch = &self.touches[k];
         let rows = self.rows_now(k);
         let of = |side: usize, body: u32| {
