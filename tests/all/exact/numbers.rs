@@ -195,6 +195,6 @@ fn t34_the_same_bits_everywhere() {
         crowd(ExchangeRule::Document, MotionRule::Stepped),
     ];
     // Pinned: what rounds otherwise changes them, knowingly.
-    let pinned = ["ee30dd04c57e7066", "8d4c40118b41eb74", "f614f685d8d6bc45", "9f9dada3467ad63c", "c24c10257599e3d0"];
+    let pinned = ["ee30dd04c57e7066", "8d4c40118b41eb74", "b7bbe1d75745e0db", "9f9dada3467ad63c", "c24c10257599e3d0"];
     assert_eq!(found, pinned);
 }
