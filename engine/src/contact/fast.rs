@@ -76,6 +76,11 @@ pub(super) struct Fast {
 }
 
 impl Fast {
+    /// Touches that were looked at again in this sub-step, and whether the two face each other still.
+    pub(super) fn looked(&self) -> &[(u32, bool)] {
+        &self.looked
+    }
+
     pub(super) fn bodies(&self) -> impl Iterator<Item = u32> {
         self.bodies.iter().copied()
     }

@@ -66,11 +66,22 @@ impl Contacts {
     pub(super) fn strike_pairs(&mut self, world: &mut World, h: f64) {
         if self.gone == 0.0 {
             self.foresee_pairs(world, h);
+        } else {
+            self.forget_fast_pairs();
         }
         for at in 0..self.pairs.touches.len() {
             let (k, due) = (self.pairs.touches[at] as usize, self.pairs.due[at]);
             if due.time <= self.gone + h && self.blocks.lane(k).is_none() {
                 self.pairs.due[at] = self.strike_pair(world, k, due, h);
+            }
+        }
+    }
+
+    /// Fast bodies have flown and met in this sub-step, maybe otherwise than was foreseen.
+    fn forget_fast_pairs(&mut self) {
+        for (touch, _) in self.fast.looked() {
+            if let Ok(at) = self.pairs.touches.binary_search(touch) {
+                self.pairs.due[at] = Due::UNKNOWN;
             }
         }
     }
