@@ -31,7 +31,7 @@ struct Glance {
 impl Contacts {
     /// Finds out whom fast bodies meet next, where that is not known.
     pub(super) fn foresee(&mut self, world: &mut World, h: f64) {
-        self.fast.by_row.go_on(&self.of_touch, self.rows.rows.len());
+        self.fast.by_row.go_on(self.of_touch.iter().copied(), self.rows.rows.len());
         let is_unknown = |followed: &Followed| matches!(followed.next, Foreseen::NotYet);
         for at in 0..self.fast.followed.len() {
             let followed = self.fast.followed[at];

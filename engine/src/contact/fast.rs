@@ -12,7 +12,7 @@
 //! to fixed ones only.
 
 use super::Contacts;
-use super::by_row::ByRow;
+use super::links::Links;
 use super::meeting::Two;
 use super::rows::Row;
 use crate::bodies::{Bodies, Motion};
@@ -65,7 +65,7 @@ pub(super) struct Fast {
     farthest: f64,
     /// Who has met, and when; and touches by their rows.
     pub(super) met: Vec<Meets>,
-    pub(super) by_row: ByRow,
+    pub(super) by_row: Links,
     /// Rectangles that may be met.
     pub(super) near: Vec<u32>,
     /// The bodies that are fast as the part of the step begins.
@@ -133,7 +133,7 @@ impl Contacts {
     pub(super) fn touch_of(&self, rects: (u32, u32)) -> Option<usize> {
         let rows = [rects.0, rects.1].map(|rect| self.rows.of(self.search.body_of(rect) as u32));
         let row = rows.into_iter().flatten().find(|row| self.rows.mobile_of(*row).is_some())?;
-        self.fast.by_row.of(row).find(|k| self.touches[*k].rects == rects)
+        self.fast.by_row.of(row as usize).find(|k| self.touches[*k].rects == rects)
     }
 
     /// Follows fast bodies through the sub-step.

@@ -88,6 +88,9 @@ impl Contacts {
 
     /// Looks for the next impacts of all pairs at once: none changes what another does.
     fn foresee_pairs(&mut self, world: &mut World, h: f64) {
+        if self.pairs.touches.is_empty() {
+            return;
+        }
         let Pairs { touches, mut due } = core::mem::take(&mut self.pairs);
         let (contacts, scene) = (&*self, &*world);
         let mut rest = &mut due[..];

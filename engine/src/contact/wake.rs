@@ -6,6 +6,7 @@
 
 use super::Contacts;
 use super::flying::Fliers;
+use super::links::Links;
 use super::rows::{Rows, TURN};
 use super::search::Search;
 use super::swept::ROOM;
@@ -19,8 +20,6 @@ use crate::world::World;
 /// before it matters to those it is near.
 const DEVIATES: f64 = 1e-6;
 
-const NONE: u32 = u32::MAX;
-
 /// The pairs of a part of a step that stay apart.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Apart {
@@ -29,9 +28,8 @@ pub(super) struct Apart {
     woken: Vec<bool>,
     /// The axis that held each apart most when the part began, from the first to the second, and by how much \[m\]; once it was asked for.
     axes: Vec<Option<(Vec2, f64)>>,
-    /// The last pair of each body, and the one before of each pair's bodies, as twice its index, plus one on the second side.
-    last: Vec<u32>,
-    before: Vec<[u32; 2]>,
+    /// The pairs of each body.
+    links: Links,
     /// Rows of bodies that have pairs and that touches laid out may push, each once; and by row, whether it is among them.
     pushed: Vec<u32>,
     is_pushed: Vec<bool>,
@@ -61,17 +59,9 @@ impl Apart {
         self.woken.resize(self.pairs.len(), false);
         self.axes.clear();
         self.axes.resize(self.pairs.len(), None);
-        self.last.clear();
-        self.last.resize(bodies, NONE);
-        self.before.clear();
-        for (k, pair) in self.pairs.iter().enumerate() {
-            let mut before = [NONE; 2];
-            for (side, rect) in [pair.0, pair.1].into_iter().enumerate() {
-                let last = &mut self.last[search.body_of(rect)];
-                before[side] = core::mem::replace(last, (2 * k + side) as u32);
-            }
-            self.before.push(before);
-        }
+        self.links.clear();
+        let body_of = |rect: u32| search.body_of(rect) as u32;
+        self.links.go_on(self.pairs.iter().map(|(one, two)| (body_of(*one), body_of(*two))), bodies);
     }
 
     /// Remembers the rows that touches laid out may push and whose bodies have pairs.
@@ -81,7 +71,7 @@ impl Apart {
         self.is_pushed.resize(rows.rows.len(), false);
         for (k, body) in rows.mobile.iter().enumerate() {
             let row = rows.first() + k;
-            if self.last[*body as usize] != NONE && is_laid_out(row) {
+            if self.links.last(*body as usize).is_some() && is_laid_out(row) {
                 self.is_pushed[row] = true;
                 self.pushed.push(row as u32);
             }
@@ -93,7 +83,7 @@ impl Apart {
         self.is_pushed.resize(rows.rows.len(), false);
         for row in [a, b] {
             let Some(k) = rows.mobile_of(row) else { continue };
-            if self.last[rows.mobile[k] as usize] != NONE
+            if self.links.last(rows.mobile[k] as usize).is_some()
                 && !core::mem::replace(&mut self.is_pushed[row as usize], true)
             {
                 self.pushed.push(row);
@@ -134,10 +124,10 @@ impl Contacts {
 
     /// Looks again at the pairs of a body that has been given another motion.
     pub(super) fn wake_around(&mut self, world: &mut World, body: usize, under_way: Option<f64>) {
-        let mut at = self.apart.last[body];
-        while at != NONE {
-            let (pair, side) = ((at / 2) as usize, (at % 2) as usize);
-            at = self.apart.before[pair][side];
+        let mut next = self.apart.links.last(body);
+        while let Some(link) = next {
+            next = self.apart.links.before(link);
+            let pair = (link / 2) as usize;
             if !self.apart.woken[pair] {
                 self.look_once_more(world, pair, under_way);
             }

@@ -106,7 +106,7 @@ fn a_fast_bar_hits_at_the_first_pass() {
     }
 }
 
-/// A heavy box drives into a block of a hundred times as many as it can part in one go: all of them are fast, and every one touches others.
+/// A heavy box drives into a block of 200: all of them are fast then, and every one touches others.
 #[test]
 fn a_crowd_of_fast_bodies_costs_what_its_impacts_cost() {
     let mut bodies = vec![block("ram", (2.0, 2.0), (-3.0, 0.0), (40.0, 0.0), 2000.0)];
