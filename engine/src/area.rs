@@ -9,6 +9,7 @@ pub type Vec2 = Vector2<f64>;
 /// A rectangle in a body's own frame (SRO); it need not be centred on the body \[m\].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
+#[repr(C)]
 pub struct Rect {
     /// X_min.
     pub x_min: f64,
@@ -21,6 +22,12 @@ pub struct Rect {
 }
 
 impl Rect {
+    /// As it lies in memory: X_min, X_max, Z_min, Z_max.
+    #[inline(always)]
+    pub(crate) fn row(&self) -> [f64; 4] {
+        [self.x_min, self.x_max, self.z_min, self.z_max]
+    }
+
     /// The rectangle of that width (along X) and depth (along Z) centred on its body.
     #[must_use]
     pub fn centred(width: f64, depth: f64) -> Self {

@@ -7,6 +7,7 @@ use crate::trig::sin_cos;
 
 /// A body's frame (SRO → SRU): a rotation, then a translation to its centre O.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
 pub struct Frame {
     /// The body's centre O, from the plan's origin \[m\].
     pub o: Vec2,
@@ -17,6 +18,12 @@ pub struct Frame {
 }
 
 impl Frame {
+    /// As it lies in memory: O's x and z, cos θ, sin θ.
+    #[inline(always)]
+    pub(crate) fn row(&self) -> [f64; 4] {
+        [self.o.x, self.o.y, self.cos, self.sin]
+    }
+
     /// The frame at O turned by θ in −π … π.
     #[must_use]
     pub fn new(o: Vec2, angle: f64) -> Self {

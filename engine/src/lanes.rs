@@ -1,7 +1,7 @@
 //! Eight numbers treated alike: what a processor with wide registers does at once and any other one after the other.
 //!
-//! [`Eight`] is how they lie in memory, and what a processor without wide registers computes with; [`Wide`] is what all that
-//! computes with eight numbers is written for. Every lane sees the same operations in the same order at any width, and
+//! [`Eight`] is how they lie in memory, and what a processor without wide registers computes with; [`Numbers`] and [`Wide`] are
+//! what all that computes with them is written for. Every lane sees the same operations in the same order at any width, and
 //! nothing is fused or reordered, so the bits are the same everywhere.
 //!
 //! A yes or no in every lane is a number too: 1 or −1, for [`Wide::pick`]; `a.min(b)` is then a and b, `a.max(b)` a or b, `−a` not a.
@@ -29,14 +29,23 @@ impl Eight {
     }
 }
 
-/// Eight numbers as a processor computes with them, in registers of some width. All methods are to be marked
-/// `#[inline(always)]`: they are compiled for that width where they are used ([`crate::width`]).
-pub(crate) trait Wide:
+/// Numbers as a processor computes with them, in registers of some width: eight, or as many as one register has. All methods
+/// are to be marked `#[inline(always)]`: they are compiled for that width where they are used ([`crate::width`]).
+pub(crate) trait Numbers:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
 {
+    /// Which of eight lanes they are: the first of them, and how many.
+    const FIRST: usize;
+    const COUNT: usize;
+
+    /// Their lanes of eight.
     fn of(numbers: &[f64; LANES]) -> Self;
 
+    /// As they lie in memory; 0 in other lanes.
     fn eight(self) -> Eight;
+
+    /// Puts them into their lanes of eight.
+    fn put(self, eight: &mut Eight);
 
     /// The same number in every lane.
     fn all(value: f64) -> Self;
@@ -65,8 +74,12 @@ pub(crate) trait Wide:
     /// Whether any is greater than 0.
     fn any(self) -> bool;
 
-    /// Eight rows of eight become eight columns: rows of bodies become lanes, and back.
-    fn transpose(rows: [Self; LANES]) -> [Self; LANES];
+    /// The columns of rows of four, one for every lane: what is told of bodies becomes lanes.
+    fn columns(row: impl FnMut(usize) -> [f64; 4]) -> [Self; 4];
+
+    /// The columns of rows of eight, and back: so many rows as there are lanes.
+    fn gather<'a>(row: impl FnMut(usize) -> &'a [f64; LANES]) -> [Self; LANES];
+    fn scatter(columns: [Self; LANES], put: impl FnMut(usize, Eight));
 
     #[inline(always)]
     fn zero() -> Self {
@@ -78,6 +91,14 @@ pub(crate) trait Wide:
     fn inverse(self) -> Self {
         Self::all(1.0) / self
     }
+}
+
+/// Eight numbers.
+pub(crate) trait Wide: Numbers {
+    /// The lanes of one register, and the others if there are others: for what needs more numbers at a time than there are
+    /// registers for eight.
+    type Low: Numbers;
+    type High: Numbers;
 
     /// All lanes together, pair by pair.
     #[inline(always)]
@@ -126,7 +147,10 @@ impl Neg for Eight {
 
 /// Plain arrays and loops of a fixed length, which the compiler turns into such vector instructions as every processor of the
 /// platform has.
-impl Wide for Eight {
+impl Numbers for Eight {
+    const FIRST: usize = 0;
+    const COUNT: usize = LANES;
+
     #[inline(always)]
     fn of(numbers: &[f64; LANES]) -> Eight {
         Eight(*numbers)
@@ -135,6 +159,11 @@ impl Wide for Eight {
     #[inline(always)]
     fn eight(self) -> Eight {
         self
+    }
+
+    #[inline(always)]
+    fn put(self, eight: &mut Eight) {
+        *eight = self;
     }
 
     #[inline(always)]
@@ -214,40 +243,74 @@ impl Wide for Eight {
         any
     }
 
-    /// Three rounds of exchanges between rows: by pairs, by fours, by halves.
     #[inline(always)]
-    fn transpose(rows: [Eight; LANES]) -> [Eight; LANES] {
-        let mut pairs = [Eight::ZERO; LANES];
-        for k in 0..4 {
-            for h in 0..4 {
-                pairs[2 * k].0[2 * h] = rows[2 * k].0[2 * h];
-                pairs[2 * k].0[2 * h + 1] = rows[2 * k + 1].0[2 * h];
-                pairs[2 * k + 1].0[2 * h] = rows[2 * k].0[2 * h + 1];
-                pairs[2 * k + 1].0[2 * h + 1] = rows[2 * k + 1].0[2 * h + 1];
+    fn columns(mut row: impl FnMut(usize) -> [f64; 4]) -> [Eight; 4] {
+        let mut columns = [Eight::ZERO; 4];
+        for k in 0..LANES {
+            let row = row(k);
+            for (column, number) in columns.iter_mut().zip(row) {
+                column.0[k] = number;
             }
         }
-        let mut fours = [Eight::ZERO; LANES];
-        for k in [0, 4] {
-            for h in 0..2 {
-                for q in [0, 4] {
-                    for e in 0..2 {
-                        fours[k + h].0[q + e] = pairs[k + h].0[q + e];
-                        fours[k + h].0[q + 2 + e] = pairs[k + 2 + h].0[q + e];
-                        fours[k + 2 + h].0[q + e] = pairs[k + h].0[q + 2 + e];
-                        fours[k + 2 + h].0[q + 2 + e] = pairs[k + 2 + h].0[q + 2 + e];
-                    }
+        columns
+    }
+
+    #[inline(always)]
+    fn gather<'a>(mut row: impl FnMut(usize) -> &'a [f64; LANES]) -> [Eight; LANES] {
+        let mut rows = [Eight::ZERO; LANES];
+        for k in 0..LANES {
+            rows[k] = Eight(*row(k));
+        }
+        transpose(rows)
+    }
+
+    #[inline(always)]
+    fn scatter(columns: [Eight; LANES], mut put: impl FnMut(usize, Eight)) {
+        let rows = transpose(columns);
+        for k in 0..LANES {
+            put(k, rows[k]);
+        }
+    }
+}
+
+impl Wide for Eight {
+    type Low = Eight;
+    type High = Eight;
+}
+
+/// Three rounds of exchanges between rows: by pairs, by fours, by halves.
+#[inline(always)]
+fn transpose(rows: [Eight; LANES]) -> [Eight; LANES] {
+    let mut pairs = [Eight::ZERO; LANES];
+    for k in 0..4 {
+        for h in 0..4 {
+            pairs[2 * k].0[2 * h] = rows[2 * k].0[2 * h];
+            pairs[2 * k].0[2 * h + 1] = rows[2 * k + 1].0[2 * h];
+            pairs[2 * k + 1].0[2 * h] = rows[2 * k].0[2 * h + 1];
+            pairs[2 * k + 1].0[2 * h + 1] = rows[2 * k + 1].0[2 * h + 1];
+        }
+    }
+    let mut fours = [Eight::ZERO; LANES];
+    for k in [0, 4] {
+        for h in 0..2 {
+            for q in [0, 4] {
+                for e in 0..2 {
+                    fours[k + h].0[q + e] = pairs[k + h].0[q + e];
+                    fours[k + h].0[q + 2 + e] = pairs[k + 2 + h].0[q + e];
+                    fours[k + 2 + h].0[q + e] = pairs[k + h].0[q + 2 + e];
+                    fours[k + 2 + h].0[q + 2 + e] = pairs[k + 2 + h].0[q + 2 + e];
                 }
             }
         }
-        let mut out = [Eight::ZERO; LANES];
-        for h in 0..4 {
-            for e in 0..4 {
-                out[h].0[e] = fours[h].0[e];
-                out[h].0[4 + e] = fours[4 + h].0[e];
-                out[4 + h].0[e] = fours[h].0[4 + e];
-                out[4 + h].0[4 + e] = fours[4 + h].0[4 + e];
-            }
-        }
-        out
     }
+    let mut out = [Eight::ZERO; LANES];
+    for h in 0..4 {
+        for e in 0..4 {
+            out[h].0[e] = fours[h].0[e];
+            out[h].0[4 + e] = fours[4 + h].0[e];
+            out[4 + h].0[e] = fours[h].0[4 + e];
+            out[4 + h].0[4 + e] = fours[4 + h].0[4 + e];
+        }
+    }
+    out
 }

@@ -98,7 +98,7 @@ fn eight<T: Work>(work: T) -> T::Out {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lanes::LANES;
+    use crate::lanes::{LANES, Numbers};
 
     /// Numbers of all kinds.
     fn numbers(seed: usize) -> Eight {
@@ -154,15 +154,30 @@ mod tests {
         }
     }
 
-    /// Rows that become columns, at some width.
+    /// Rows that become columns, at some width: whole ones, their first halves, and the first halves of as many as fit a register;
+    /// and whole ones there and back.
     struct Turned([Eight; LANES]);
 
     impl Work for Turned {
-        type Out = [Eight; LANES];
+        type Out = ([Eight; LANES], [Eight; 4], ([Eight; 4], usize), [Eight; LANES]);
 
         #[inline(always)]
-        fn run<V: Wide>(self) -> [Eight; LANES] {
-            V::transpose(self.0.map(|row| V::of(&row.0))).map(V::eight)
+        fn run<V: Wide>(self) -> Self::Out {
+            let halves = self.0.map(|row| [row.0[0], row.0[1], row.0[2], row.0[3]]);
+            let narrow = V::Low::columns(|k| halves[k]).map(V::Low::eight);
+            let mut back = [Eight::ZERO; LANES];
+            let low = V::Low::gather(|k| &self.0[V::Low::FIRST + k].0);
+            V::Low::scatter(low, |k, row| back[V::Low::FIRST + k] = row);
+            if V::Low::COUNT < LANES {
+                let high = V::High::gather(|k| &self.0[V::High::FIRST + k].0);
+                V::High::scatter(high, |k, row| back[V::High::FIRST + k] = row);
+            }
+            (
+                V::gather(|k| &self.0[k].0).map(V::eight),
+                V::columns(|k| halves[k]).map(V::eight),
+                (narrow, V::Low::COUNT),
+                back,
+            )
         }
     }
 
@@ -170,10 +185,15 @@ mod tests {
     fn rows_become_columns_at_every_width() {
         let rows: [Eight; LANES] = core::array::from_fn(|i| Eight(core::array::from_fn(|j| (10 * i + j) as f64)));
         for width in Width::available() {
-            let columns = width.run(Turned(rows));
+            let (columns, first, (narrow, count), back) = width.run(Turned(rows));
+            assert_eq!(back, rows, "{width:?}");
             for (i, row) in rows.iter().enumerate() {
-                for (j, column) in columns.iter().enumerate() {
-                    assert_eq!(column.0[i], row.0[j], "{width:?}");
+                for j in 0..LANES {
+                    assert_eq!(columns[j].0[i], row.0[j], "{width:?}");
+                }
+                for j in 0..4 {
+                    assert_eq!(first[j].0[i], row.0[j], "{width:?}");
+                    assert_eq!(narrow[j].0[i], if i < count { row.0[j] } else { 0.0 }, "{width:?}");
                 }
             }
         }

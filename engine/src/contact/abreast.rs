@@ -4,17 +4,16 @@
 //! What is rare is left to that: pairs deep in each other that did not touch a step ago, pairs at a seam, pairs whose best face is
 //! passed by.
 
-use super::find::Acting;
+use super::acting::Moving;
 use super::swept::ROOM;
 use super::touch::{FAR, Touch};
 use crate::bodies::Bodies;
 use crate::broad_phase::met::Owner;
 use crate::detect::Face;
 use crate::detect::complete::PREFERENCE;
-use crate::detect::manifold::Placed;
 use crate::detect::near::{DEEP, LOYALTY};
 use crate::detect::sides::ALONG;
-use crate::lanes::{LANES, Wide};
+use crate::lanes::{LANES, Numbers};
 
 /// Two numbers along x and z, in every lane.
 pub(super) type Pair<V> = [V; 2];
@@ -22,7 +21,7 @@ pub(super) type Pair<V> = [V; 2];
 /// A yes or no in every lane: 1 or −1, for [`Wide::pick`].
 pub(super) type Flag<V> = V;
 
-/// The rectangles of eight pairs on one side, their bodies and how those move.
+/// The rectangles of some pairs on one side, and their bodies.
 #[derive(Clone, Copy)]
 pub(super) struct Side<V> {
     pub(super) o: Pair<V>,
@@ -33,92 +32,90 @@ pub(super) struct Side<V> {
     /// From x_min, z_min to x_max, z_max.
     pub(super) low: Pair<V>,
     pub(super) high: Pair<V>,
-    far: V,
-    v: Pair<V>,
-    omega: V,
-    /// Acceleration and angular acceleration now.
-    acceleration: Pair<V>,
-    angular: V,
 }
 
-impl<V: Wide> Side<V> {
+impl<V: Numbers> Side<V> {
+    /// The rectangles of those indices.
     #[inline(always)]
-    pub(super) fn of(bodies: &Bodies, acting: Acting, placed: &[(Placed, Owner); LANES]) -> Side<V> {
-        let (mut places, mut motions) = ([V::zero(); LANES], [V::zero(); LANES]);
-        for (k, (Placed { body, frame, rect, .. }, owner)) in placed.iter().enumerate() {
-            places[k] = V::of(&Acting::place(frame, rect).0);
-            motions[k] = V::of(&acting.motion(&bodies.motion[*body], *owner).0);
-        }
-        let [x, z, cos, sin, x_min, x_max, z_min, z_max] = V::transpose(places);
-        let [vx, vz, omega, ax, az, angular, ..] = V::transpose(motions);
-        let (o, axis, low, high) = ([x, z], [cos, sin], [x_min, z_min], [x_max, z_max]);
-        let (v, acceleration) = ([vx, vz], [ax, az]);
+    pub(super) fn of(bodies: &Bodies, owners: &[Owner], rect: impl Fn(usize) -> usize) -> Side<V> {
+        let [x, z, cos, sin] = V::columns(|k| bodies.frame[owners[rect(k)].body()].row());
+        let [x_min, x_max, z_min, z_max] = V::columns(|k| bodies.rects[rect(k)].row());
+        let (low, high) = ([x_min, z_min], [x_max, z_max]);
         let middle = V::all(0.5);
         let half = [middle * (high[0] - low[0]), middle * (high[1] - low[1])];
         let centre = [middle * (low[0] + high[0]), middle * (low[1] + high[1])];
-        let far = low[0].abs().max(high[0].abs()) + low[1].abs().max(high[1].abs());
-        Side { o, axis, half, centre, low, high, far, v, omega, acceleration, angular }
+        Side { o: [x, z], axis: [cos, sin], half, centre, low, high }
     }
 }
 
-impl<V: Wide> Side<V> {
+/// How the rectangles on one side move.
+pub(super) struct Mover<V> {
+    body: Moving<V>,
     /// How fast the middle of the rectangle moves.
+    middle: Pair<V>,
+    /// How far the rectangle reaches from its body's centre at most.
+    far: V,
+}
+
+impl<V: Numbers> Mover<V> {
     #[inline(always)]
-    fn middle_moves(&self) -> Pair<V> {
-        let [x, z] = outward(self.axis, self.centre);
-        [self.v[0] - self.omega * z, self.v[1] + self.omega * x]
+    pub(super) fn of(body: Moving<V>, side: &Side<V>) -> Mover<V> {
+        let (low, high) = (side.low, side.high);
+        let far = low[0].abs().max(high[0].abs()) + low[1].abs().max(high[1].abs());
+        let [x, z] = outward(side.axis, side.centre);
+        Mover { middle: [body.v[0] - body.omega * z, body.v[1] + body.omega * x], body, far }
     }
 
     /// How far its corners leave a straight line, for half of the time squared \[m/s²\].
     #[inline(always)]
     fn bent(&self) -> V {
-        (self.omega * self.omega + self.angular.abs()) * self.far
+        (self.body.omega * self.body.omega + self.body.angular.abs()) * self.far
     }
 
     /// 0 where the body stands still and nothing acts on it.
     #[inline(always)]
     fn moves(&self) -> V {
-        sum(self.v) + sum(self.acceleration) + self.omega.abs() + self.angular.abs()
+        sum(self.body.v) + sum(self.body.acceleration) + self.body.omega.abs() + self.body.angular.abs()
     }
 }
 
 #[inline(always)]
-fn sum<V: Wide>(of: Pair<V>) -> V {
+fn sum<V: Numbers>(of: Pair<V>) -> V {
     of[0].abs() + of[1].abs()
 }
 
 #[inline(always)]
-pub(super) fn outward<V: Wide>([cos, sin]: Pair<V>, [x, z]: Pair<V>) -> Pair<V> {
+pub(super) fn outward<V: Numbers>([cos, sin]: Pair<V>, [x, z]: Pair<V>) -> Pair<V> {
     [cos * x - sin * z, sin * x + cos * z]
 }
 
 #[inline(always)]
-pub(super) fn inward<V: Wide>([cos, sin]: Pair<V>, [x, z]: Pair<V>) -> Pair<V> {
+pub(super) fn inward<V: Numbers>([cos, sin]: Pair<V>, [x, z]: Pair<V>) -> Pair<V> {
     [cos * x + sin * z, cos * z - sin * x]
 }
 
 #[inline(always)]
-pub(super) fn add<V: Wide>(a: Pair<V>, b: Pair<V>) -> Pair<V> {
+pub(super) fn add<V: Numbers>(a: Pair<V>, b: Pair<V>) -> Pair<V> {
     [a[0] + b[0], a[1] + b[1]]
 }
 
 #[inline(always)]
-pub(super) fn sub<V: Wide>(a: Pair<V>, b: Pair<V>) -> Pair<V> {
+pub(super) fn sub<V: Numbers>(a: Pair<V>, b: Pair<V>) -> Pair<V> {
     [a[0] - b[0], a[1] - b[1]]
 }
 
 #[inline(always)]
-pub(super) fn times<V: Wide>(a: Pair<V>, by: V) -> Pair<V> {
+pub(super) fn times<V: Numbers>(a: Pair<V>, by: V) -> Pair<V> {
     [a[0] * by, a[1] * by]
 }
 
 #[inline(always)]
-pub(super) fn cross<V: Wide>(a: Pair<V>, b: Pair<V>) -> V {
+pub(super) fn cross<V: Numbers>(a: Pair<V>, b: Pair<V>) -> V {
     a[0] * b[1] - a[1] * b[0]
 }
 
 #[inline(always)]
-pub(super) fn pick<V: Wide>(flag: Flag<V>, yes: Pair<V>, no: Pair<V>) -> Pair<V> {
+pub(super) fn pick<V: Numbers>(flag: Flag<V>, yes: Pair<V>, no: Pair<V>) -> Pair<V> {
     [flag.pick(yes[0], no[0]), flag.pick(yes[1], no[1])]
 }
 
@@ -132,7 +129,7 @@ pub(super) struct Seen<V> {
     pub(super) depth: Pair<V>,
 }
 
-impl<V: Wide> Seen<V> {
+impl<V: Numbers> Seen<V> {
     #[inline(always)]
     fn from(owner: &Side<V>, reference: &Side<V>) -> Seen<V> {
         let o = inward(reference.axis, sub(owner.o, reference.o));
@@ -163,12 +160,10 @@ pub(super) struct Best<V> {
     pub(super) positive: Flag<V>,
 }
 
-/// How eight pairs touched a step ago, 0 of those that did not.
+/// How pairs touched a step ago, 0 of those that did not.
 #[derive(Clone, Copy)]
 pub(super) struct Loyal<V> {
     touched: V,
-    /// Those that do not bounce: what came to touch goes on touching, or does so again soon.
-    pub(super) stays: Flag<V>,
     of_first: Flag<V>,
     across_x: Flag<V>,
     positive: Flag<V>,
@@ -176,22 +171,21 @@ pub(super) struct Loyal<V> {
     normal: Pair<V>,
 }
 
-impl<V: Wide> Loyal<V> {
+impl<V: Numbers> Loyal<V> {
     #[inline(always)]
-    pub(super) fn of(last: &[Option<&Touch>; LANES]) -> Loyal<V> {
+    pub(super) fn of<'a>(last: impl Fn(usize) -> Option<&'a Touch>) -> Loyal<V> {
         let (mut touched, mut of_first, mut across_x, mut positive) =
             ([0.0; LANES], [0.0; LANES], [0.0; LANES], [0.0; LANES]);
-        let (mut normal, mut stays) = ([[0.0; LANES]; 2], [-1.0; LANES]);
+        let mut normal = [[0.0; LANES]; 2];
         let flag = |yes: bool| if yes { 1.0 } else { -1.0 };
-        for k in 0..LANES {
-            let Some(last) = last[k] else { continue };
+        for k in 0..V::COUNT {
+            let Some(last) = last(k) else { continue };
             touched[k] = 1.0;
             of_first[k] = flag(last.of_first);
             across_x[k] = flag(matches!(last.face, Face::XMax | Face::XMin));
             positive[k] = flag(last.face.is_positive());
             let n = if last.of_first { last.n } else { -last.n };
             (normal[0][k], normal[1][k]) = (n.x, n.y);
-            stays[k] = flag(last.surface.restitution == 0.0);
         }
         Loyal {
             touched: V::of(&touched),
@@ -199,45 +193,56 @@ impl<V: Wide> Loyal<V> {
             across_x: V::of(&across_x),
             positive: V::of(&positive),
             normal: [V::of(&normal[0]), V::of(&normal[1])],
-            stays: V::of(&stays),
         }
     }
 }
 
-/// Eight pairs under look, the earlier created on the first side.
+/// Pairs under look, the earlier created on the first side.
 pub(super) struct Abreast<V> {
     pub(super) one: Side<V>,
     pub(super) two: Side<V>,
     /// The first as seen from the second, and the other way round.
     pub(super) one_seen: Seen<V>,
     pub(super) two_seen: Seen<V>,
-    pub(super) margin: V,
     depth: V,
 }
 
-impl<V: Wide> Abreast<V> {
+impl<V: Numbers> Abreast<V> {
     #[inline(always)]
-    pub(super) fn new(one: Side<V>, two: Side<V>, dt: f64) -> Abreast<V> {
+    pub(super) fn new(one: Side<V>, two: Side<V>) -> Abreast<V> {
         let (one_seen, two_seen) = (Seen::from(&one, &two), Seen::from(&two, &one));
         let depth = two_seen.depth[0].min(two_seen.depth[1]).min(one_seen.depth[0].min(one_seen.depth[1]));
-        Abreast { margin: margin(&one, &two, dt), one, two, one_seen, two_seen, depth }
+        Abreast { one, two, one_seen, two_seen, depth }
     }
 
-    /// Which pairs may touch at all.
+    /// How far apart they may be and touch within the step: [`crate::flight::Path::closing`] and room.
     #[inline(always)]
-    pub(super) fn may(&self) -> Flag<V> {
-        self.depth.at_least(-self.margin)
+    pub(super) fn margin(&self, [one, two]: [&Mover<V>; 2], dt: f64) -> V {
+        let (time, half) = (V::all(dt), V::all(0.5));
+        let u = sub(two.body.v, one.body.v);
+        let speed = u[0].abs() + u[1].abs() + one.body.omega.abs() * one.far + two.body.omega.abs() * two.far;
+        let pulled = sum(one.body.acceleration) + sum(two.body.acceleration);
+        let spun = one.body.angular.abs() * one.far + two.body.angular.abs() * two.far;
+        let (first, second) = (self.one.half, self.two.half);
+        let room = V::all(ROOM) * (first[0].min(first[1]) + second[0].min(second[1]));
+        (speed + half * (pulled + spun) * time) * time + room
+    }
+
+    /// Which pairs may touch at all, that far apart or less.
+    #[inline(always)]
+    pub(super) fn may(&self, margin: V) -> Flag<V> {
+        self.depth.at_least(-margin)
     }
 
     /// Which pairs stay apart for a time unless something is done to their bodies: an axis holds them apart in spite of all that
     /// they move and turn, whether or not what pulls at them is held by others; or they touch, and stand as still as can be.
     #[inline(always)]
-    pub(super) fn stay_apart(&self, dt: f64) -> Flag<V> {
-        let (one, two) = (&self.one, &self.two);
-        let room = self.room(&self.two_seen, one, two, dt).max(self.room(&self.one_seen, two, one, dt));
+    pub(super) fn stay_apart(&self, [one, two]: [&Mover<V>; 2], dt: f64) -> Flag<V> {
+        let of_first = self.room(&self.two_seen, (&self.one, one), (&self.two, two), dt);
+        let of_second = self.room(&self.one_seen, (&self.two, two), (&self.one, one), dt);
         let still = V::zero().at_least(one.moves() + two.moves());
         let no_deeper = (V::all(super::TOUCHING) * self.small()).at_least(self.depth);
-        V::zero().less(room).max(still.min(no_deeper))
+        V::zero().less(of_first.max(of_second)).max(still.min(no_deeper))
     }
 
     /// The least gap within a time along one of the reference's axes, as it points when the time begins, whichever is wider.
@@ -245,16 +250,22 @@ impl<V: Wide> Abreast<V> {
     /// Corners move along arcs: in a straight line, but for half of ω² r t². Along an axis, the deepest of straight lines is deepest
     /// at one of the ends.
     #[inline(always)]
-    fn room(&self, seen: &Seen<V>, reference: &Side<V>, other: &Side<V>, dt: f64) -> V {
+    fn room(
+        &self,
+        seen: &Seen<V>,
+        (reference, moves): (&Side<V>, &Mover<V>),
+        (other, other_moves): (&Side<V>, &Mover<V>),
+        dt: f64,
+    ) -> V {
         let (time, half) = (V::all(dt), V::all(0.5));
-        let bent = half * (reference.bent() + other.bent()) * time * time;
-        let u = inward(reference.axis, sub(other.middle_moves(), reference.middle_moves()));
-        let pulls = [inward(reference.axis, reference.acceleration), inward(reference.axis, other.acceleration)];
+        let bent = half * (moves.bent() + other_moves.bent()) * time * time;
+        let u = inward(reference.axis, sub(other_moves.middle, moves.middle));
+        let pulls = [inward(reference.axis, moves.body.acceleration), inward(reference.axis, other_moves.body.acceleration)];
         let [c, s] = seen.axis;
         // The other's x and z axes along the reference's, and turned on by the end.
-        let turn = other.omega * time;
+        let turn = other_moves.body.omega * time;
         let after = [[c - turn * s, -s - turn * c], [s + turn * c, c - turn * s]];
-        let spun = reference.omega.abs() * time;
+        let spun = moves.body.omega.abs() * time;
         let mut room = [V::zero(); 2];
         for k in 0..2 {
             let end = seen.d[k] + u[k] * time;
@@ -340,16 +351,4 @@ impl<V: Wide> Abreast<V> {
         }
         best.expect("there are four ways")
     }
-}
-
-/// How far apart two may be and touch within the step: [`crate::flight::Path::closing`] and room.
-#[inline(always)]
-fn margin<V: Wide>(one: &Side<V>, two: &Side<V>, dt: f64) -> V {
-    let (time, half) = (V::all(dt), V::all(0.5));
-    let u = sub(two.v, one.v);
-    let speed = u[0].abs() + u[1].abs() + one.omega.abs() * one.far + two.omega.abs() * two.far;
-    let pulled = sum(one.acceleration) + sum(two.acceleration);
-    let spun = one.angular.abs() * one.far + two.angular.abs() * two.far;
-    let room = V::all(ROOM) * (one.half[0].min(one.half[1]) + two.half[0].min(two.half[1]));
-    (speed + half * (pulled + spun) * time) * time + room
 }

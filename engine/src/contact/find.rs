@@ -1,57 +1,19 @@
 //! Who may touch within the step, and where.
 
 use super::Contacts;
-use super::abreast::{Abreast, Loyal, Side};
+use super::abreast::{Abreast, Loyal, Mover, Side};
+use super::acting::Acting;
 use super::points::Points;
-use super::pulls::Pulls;
 use super::remembered::Remembered;
 use super::search::Search;
 use super::touch::Touch;
 use crate::advance::frame_before;
-use crate::area::Rect;
-use crate::bodies::{Bodies, Motion};
-use crate::broad_phase::met::Owner;
-use crate::flight::Pull;
+use crate::bodies::Bodies;
 use crate::frame::Frame;
-use crate::lanes::{Eight, LANES, Wide};
+use crate::lanes::{Eight, LANES, Numbers, Wide};
 use crate::threads::{PER_THREAD, Threads};
 use crate::width::Work;
 use crate::world::World;
-
-/// What acts on the bodies over a step.
-#[derive(Clone, Copy)]
-pub(super) struct Acting<'a> {
-    pulls: &'a Pulls,
-    /// The same on all mobile bodies, unless some are pushed: then nothing has to be read for each.
-    on_all: Option<Pull>,
-}
-
-impl Acting<'_> {
-    /// Where a rectangle of a body is: a row, to become a lane.
-    #[inline(always)]
-    pub(super) fn place(frame: &Frame, rect: &Rect) -> Eight {
-        Eight([frame.o.x, frame.o.y, frame.cos, frame.sin, rect.x_min, rect.x_max, rect.z_min, rect.z_max])
-    }
-
-    /// How its body moves: velocity, spin, what they change by now, and 1 where nothing turns or changes, else −1.
-    #[inline(always)]
-    pub(super) fn motion(&self, motion: &Motion, owner: Owner) -> Eight {
-        let pull = self.on(owner);
-        let now = pull.a - motion.v * pull.drag.0;
-        let angular = pull.alpha - motion.omega * pull.drag.1;
-        let straight = if motion.omega == 0.0 && pull.is_none() { 1.0 } else { -1.0 };
-        Eight([motion.v.x, motion.v.y, motion.omega, now.x, now.y, angular, straight, 0.0])
-    }
-
-    #[inline(always)]
-    fn on(&self, owner: Owner) -> Pull {
-        match self.on_all {
-            Some(pull) if owner.is_mobile() => pull,
-            Some(_) => Pull::NONE,
-            None => self.pulls.on(owner.body()),
-        }
-    }
-}
 
 impl Contacts {
     /// What acts on each body over the step.
@@ -65,7 +27,7 @@ impl Contacts {
         let bodies = &*bodies;
         core::mem::swap(&mut self.touches, &mut self.before);
         self.touches.clear();
-        let acting = Acting { pulls: &self.pulls, on_all: self.pulls.on_all() };
+        let acting = Acting::new(&self.pulls);
         self.search.pairs((bodies, acting, dt), plan.broad_phase, (self.width, *threads), work);
         let earlier = |body: usize| frame_before(bodies, plan.flight, plan.time_step, body);
         let Contacts { search, touches, before, apart, shares, width, found, .. } = self;
@@ -111,7 +73,7 @@ where
     }
 }
 
-/// Looks at all pairs that may touch, eight side by side.
+/// Looks at all pairs that may touch, some side by side: first whether they do, then where.
 struct Look<'a, F> {
     bodies: &'a Bodies,
     acting: Acting<'a>,
@@ -126,55 +88,98 @@ struct Look<'a, F> {
     earlier: F,
 }
 
+/// A pair that comes to touch: its rectangles, how far they may be from each other, and its touch of the last step.
+type Coming<'a> = ((u32, u32), f64, Option<&'a Touch>);
+
 impl<F: Fn(usize) -> Frame + Copy> Work for Look<'_, F> {
     type Out = ();
 
+    /// Pairs are many and few of them come to touch: those are gathered until there are as many as fit side by side.
     #[inline(always)]
-    fn run<V: Wide>(self) {
-        let Look { bodies, acting, search, near, mut before, touches, apart, dt, earlier } = self;
-        for keys in near.chunks(LANES) {
-            let mut one = [search.placed(bodies, keys[0].0); LANES];
-            let mut two = [search.placed(bodies, keys[0].1); LANES];
-            for (k, key) in keys.iter().enumerate().skip(1) {
-                (one[k], two[k]) = (search.placed(bodies, key.0), search.placed(bodies, key.1));
+    fn run<V: Wide>(mut self) {
+        let count = V::Low::COUNT;
+        let mut coming: [Coming; 2 * LANES] = [((0, 0), 0.0, None); 2 * LANES];
+        let mut waiting = 0;
+        let mut chunks = self.near.chunks(count);
+        loop {
+            let more = chunks.next();
+            if let Some(keys) = more {
+                waiting = self.come::<V::Low>(keys, &mut coming, waiting);
+                if waiting < count {
+                    continue;
+                }
             }
-            let pairs = Abreast::<V>::new(Side::of(bodies, acting, &one), Side::of(bodies, acting, &two), dt);
-            let listed = pairs.may();
-            if !listed.any() {
-                continue;
+            let come = waiting.min(count);
+            if come > 0 {
+                self.meet::<V::Low>(&coming[..come]);
+                coming.copy_within(count..2 * count, 0);
+                waiting -= come;
             }
-            let mut last = [None; LANES];
-            for (last, key) in last.iter_mut().zip(keys) {
-                *last = before.of_pair(*key);
+            if more.is_none() {
+                break;
             }
-            let loyal = Loyal::<V>::of(&last);
-            let may = listed.min(loyal.stays.max(-pairs.stay_apart(dt)));
-            let left = listed.min(-may);
-            if left.any() {
-                let left = left.eight();
-                apart.extend((0..keys.len()).filter(|k| left.0[*k] > 0.0).map(|k| keys[k]));
+        }
+    }
+}
+
+impl<'a, F: Fn(usize) -> Frame + Copy> Look<'a, F> {
+    /// Puts pairs that come to touch behind those that wait, and others that are near among those that stay apart.
+    #[inline(always)]
+    fn come<V: Numbers>(&mut self, keys: &[(u32, u32)], coming: &mut [Coming<'a>; 2 * LANES], mut waiting: usize) -> usize {
+        let (bodies, owners, dt) = (self.bodies, self.search.owners(), self.dt);
+        let key = |k: usize| keys[k.min(keys.len() - 1)];
+        let (one, two) = (|k: usize| key(k).0 as usize, |k: usize| key(k).1 as usize);
+        let pairs = Abreast::<V>::new(Side::of(bodies, owners, one), Side::of(bodies, owners, two));
+        let moving = [
+            &Mover::of(self.acting.moving(bodies, |k| owners[one(k)]), &pairs.one),
+            &Mover::of(self.acting.moving(bodies, |k| owners[two(k)]), &pairs.two),
+        ];
+        let margin = pairs.margin(moving, dt);
+        let listed = pairs.may(margin);
+        if !listed.any() {
+            return waiting;
+        }
+        let (listed, margin) = (listed.eight(), margin.eight());
+        let apart = pairs.stay_apart(moving, dt).eight();
+        for k in (0..keys.len()).filter(|k| listed.0[*k] > 0.0) {
+            let last = self.before.of_pair(keys[k]);
+            // What came to touch and does not bounce goes on touching, or does so again soon.
+            let stays = last.is_some_and(|last| last.surface.restitution == 0.0);
+            if apart.0[k] > 0.0 && !stays {
+                self.apart.push(keys[k]);
+            } else {
+                coming[waiting] = (keys[k], margin.0[k], last);
+                waiting += 1;
             }
-            if !may.any() {
-                continue;
-            }
-            let deep = pairs.deep();
-            let points = Points::of(&pairs, pairs.best(&loyal, deep));
-            let (may, deep, margin) = (may.eight(), deep.eight(), pairs.margin.eight());
-            for k in (0..keys.len()).filter(|k| may.0[*k] > 0.0) {
-                let (one, two) = (one[k].0, two[k].0);
-                let seam = bodies.seams.concern(one.index) || bodies.seams.concern(two.index);
-                match points.touches(k).filter(|_| (deep.0[k] < 0.0 || last[k].is_some()) && !seam) {
-                    None => {
-                        if let Some(touch) = Touch::find(bodies, (one, two), margin.0[k], last[k], earlier) {
-                            touch.put_behind(touches);
-                        }
+        }
+        waiting
+    }
+
+    /// Finds the touches of pairs.
+    #[inline(always)]
+    fn meet<V: Numbers>(&mut self, coming: &[Coming]) {
+        let (bodies, owners) = (self.bodies, self.search.owners());
+        let pair = |k: usize| coming[k.min(coming.len() - 1)];
+        let (one, two) = (|k: usize| pair(k).0.0 as usize, |k: usize| pair(k).0.1 as usize);
+        let pairs = Abreast::<V>::new(Side::of(bodies, owners, one), Side::of(bodies, owners, two));
+        let margin = Eight(core::array::from_fn(|k| pair(k).1));
+        let (deep, loyal) = (pairs.deep(), Loyal::of(|k| pair(k).2));
+        let points = Points::of(&pairs, V::of(&margin.0), pairs.best(&loyal, deep));
+        let deep = deep.eight();
+        for (k, (key, margin, last)) in coming.iter().enumerate() {
+            let (one, two) = (self.search.placed(bodies, key.0), self.search.placed(bodies, key.1));
+            let seam = bodies.seams.concern(one.index) || bodies.seams.concern(two.index);
+            match points.touches(k).filter(|_| (deep.0[k] < 0.0 || last.is_some()) && !seam) {
+                None => {
+                    if let Some(touch) = Touch::find(bodies, (one, two), *margin, *last, self.earlier) {
+                        touch.put_behind(self.touches);
                     }
-                    Some(false) => {}
-                    Some(true) => {
-                        points.touch(k, bodies, (&one, &two)).put_behind(touches);
-                        if let (Some(touch), Some(last)) = (touches.last_mut(), last[k]) {
-                            touch.remember(last);
-                        }
+                }
+                Some(false) => {}
+                Some(true) => {
+                    points.touch(k, bodies, (&one, &two)).put_behind(self.touches);
+                    if let (Some(touch), Some(last)) = (self.touches.last_mut(), last) {
+                        touch.remember(last);
                     }
                 }
             }

@@ -16,6 +16,7 @@
 //! without contacts has no sub-steps.
 
 mod abreast;
+mod acting;
 mod ahead;
 mod blocks;
 mod booked;

@@ -8,7 +8,7 @@ use crate::detect::Face;
 use crate::detect::manifold::Placed;
 use crate::detect::near::ONE;
 use crate::exchange::impact::Surface;
-use crate::lanes::{Eight, Wide};
+use crate::lanes::{Eight, Numbers};
 
 /// The reference and the owner of every pair, as far as its face and points go.
 struct Roles<V> {
@@ -26,7 +26,7 @@ struct Roles<V> {
     seen: Seen<V>,
 }
 
-impl<V: Wide> Roles<V> {
+impl<V: Numbers> Roles<V> {
     #[inline(always)]
     fn of(pairs: &Abreast<V>, of_first: Flag<V>) -> Roles<V> {
         let (one, two) = (&pairs.one, &pairs.two);
@@ -99,7 +99,7 @@ pub(super) struct Points {
 
 impl Points {
     #[inline(always)]
-    pub(super) fn of<V: Wide>(pairs: &Abreast<V>, best: Best<V>) -> Points {
+    pub(super) fn of<V: Numbers>(pairs: &Abreast<V>, margin: V, best: Best<V>) -> Points {
         let roles = Roles::of(pairs, best.of_first);
         let (zero, sign) = (V::zero(), best.positive);
         let normal = [best.across_x.pick(sign, zero), best.across_x.pick(zero, sign)];
@@ -107,8 +107,8 @@ impl Points {
         let placed = [roles.seen.place(edge[0]), roles.seen.place(edge[1])];
         let face = Line::of(&roles, &best);
         let ends = [face.along(placed[0]), face.along(placed[1])];
-        let first = face.cut(&roles.seen, pairs.margin, (edge[0], edge[1]), (placed[0], placed[1]));
-        let second = face.cut(&roles.seen, pairs.margin, (edge[1], edge[0]), (placed[1], placed[0]));
+        let first = face.cut(&roles.seen, margin, (edge[0], edge[1]), (placed[0], placed[1]));
+        let second = face.cut(&roles.seen, margin, (edge[1], edge[0]), (placed[1], placed[0]));
         let between = sub(second.vertex, first.vertex);
         let length = (between[0] * between[0] + between[1] * between[1]).root();
         let apart = (V::all(ONE) * pairs.small()).less(length);
@@ -191,7 +191,7 @@ struct Levers<V> {
     middle: Pair<V>,
 }
 
-impl<V: Wide> Levers<V> {
+impl<V: Numbers> Levers<V> {
     #[inline(always)]
     fn of(roles: &Roles<V>, points: &[Point<V>; 2], n: Pair<V>, two: Flag<V>) -> Levers<V> {
         let (t, middle) = ([n[1], -n[0]], V::all(0.5));
@@ -222,7 +222,7 @@ impl<V: Wide> Levers<V> {
 }
 
 #[inline(always)]
-fn choose<V: Wide>(flag: Flag<V>, yes: &Point<V>, no: &Point<V>) -> Point<V> {
+fn choose<V: Numbers>(flag: Flag<V>, yes: &Point<V>, no: &Point<V>) -> Point<V> {
     Point {
         vertex: pick(flag, yes.vertex, no.vertex),
         on_face: pick(flag, yes.on_face, no.on_face),
@@ -242,7 +242,7 @@ struct Line<V> {
     greatest: V,
 }
 
-impl<V: Wide> Line<V> {
+impl<V: Numbers> Line<V> {
     #[inline(always)]
     fn of(roles: &Roles<V>, best: &Best<V>) -> Line<V> {
         let (across_x, positive) = (best.across_x, best.positive);

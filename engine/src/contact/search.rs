@@ -1,6 +1,6 @@
 //! Which rectangles are worth a full look: pairs whose swept bounds meet and that no axis holds apart, in order.
 
-use super::find::Acting;
+use super::acting::Acting;
 use super::swept::SweepAll;
 use crate::bodies::Bodies;
 use crate::broad_phase::grid::Grid;
@@ -94,16 +94,21 @@ impl Search {
     }
 
     /// Whose a rectangle is.
+    #[inline(always)]
     pub(super) fn body_of(&self, rect: u32) -> usize {
         self.owners[rect as usize].body()
     }
 
-    /// A rectangle where its body stands, and whose it is.
+    /// Whose each rectangle is.
+    pub(super) fn owners(&self) -> &[Owner] {
+        &self.owners
+    }
+
+    /// A rectangle where its body stands.
     #[inline(always)]
-    pub(super) fn placed<'a>(&self, bodies: &'a Bodies, rect: u32) -> (Placed<'a>, Owner) {
-        let (index, owner) = (rect as usize, self.owners[rect as usize]);
-        let body = owner.body();
-        (Placed { body, frame: &bodies.frame[body], index, rect: &bodies.rects[index] }, owner)
+    pub(super) fn placed<'a>(&self, bodies: &'a Bodies, rect: u32) -> Placed<'a> {
+        let (index, body) = (rect as usize, self.body_of(rect));
+        Placed { body, frame: &bodies.frame[body], index, rect: &bodies.rects[index] }
     }
 
     fn sweep(&mut self, (bodies, acting, dt): (&Bodies, Acting, f64), (width, threads): (Width, Threads)) {

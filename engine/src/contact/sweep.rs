@@ -7,7 +7,7 @@
 
 use super::blocks::{Block, Turned};
 use super::rows::{INVERSE_MASS, INVERSE_MOMENT, Row, SPIN, TURN, VX, VZ, X, Z};
-use crate::lanes::{Eight, LANES, Wide};
+use crate::lanes::{Eight, LANES, Numbers, Wide};
 use crate::width::Work;
 use core::ops::{Add, Mul, Sub};
 
@@ -30,25 +30,36 @@ impl<const FRICTION: bool, const PART: bool, const TURNED: bool> Work for Sweep<
     type Out = ();
 
     #[inline(always)]
-    fn run<V: Wide>(self) {
+    fn run<V: Wide>(mut self) {
         let count = self.blocks.len();
         for at in 0..count {
             let at = if self.back { count - 1 - at } else { at };
-            let block = &mut self.blocks[at];
-            let (mut a, mut b) = (gather::<V>(self.rows, &block.row_a), gather::<V>(self.rows, &block.row_b));
-            let arms = Arms::of(block, &a, &b);
-            let response = Response::of(&arms, &a, &b);
-            if PART {
-                part_overlap(block, &arms, (&mut a, &mut b), &response, V::all(self.band));
+            self.solve::<V::Low>(at);
+            if V::Low::COUNT < LANES {
+                self.solve::<V::High>(at);
             }
-            press(block, &arms, (&mut a, &mut b), &response);
-            if FRICTION {
-                let slips = if TURNED { Some(V::of(&self.turned[at].slips.0)) } else { None };
-                rub(block, &arms, (&mut a, &mut b), slips);
-            }
-            scatter(self.rows, &block.row_a, a);
-            scatter(self.rows, &block.row_b, b);
         }
+    }
+}
+
+impl<const FRICTION: bool, const PART: bool, const TURNED: bool> Sweep<'_, FRICTION, PART, TURNED> {
+    /// Solves the touches of a block, or some of its lanes.
+    #[inline(always)]
+    fn solve<V: Numbers>(&mut self, at: usize) {
+        let block = &mut self.blocks[at];
+        let (mut a, mut b) = (gather::<V>(self.rows, &block.row_a), gather::<V>(self.rows, &block.row_b));
+        let arms = Arms::of(block, &a, &b);
+        let response = Response::of(&arms, &a, &b);
+        if PART {
+            part_overlap(block, &arms, (&mut a, &mut b), &response, V::all(self.band));
+        }
+        press(block, &arms, (&mut a, &mut b), &response);
+        if FRICTION {
+            let slips = if TURNED { Some(V::of(&self.turned[at].slips.0)) } else { None };
+            rub(block, &arms, (&mut a, &mut b), slips);
+        }
+        scatter(self.rows, &block.row_a, a);
+        scatter(self.rows, &block.row_b, b);
     }
 }
 
@@ -86,7 +97,7 @@ pub(super) struct Arms<V> {
     pub(super) along_b: V,
 }
 
-impl<V: Wide> Arms<V> {
+impl<V: Numbers> Arms<V> {
     /// The levers as the step began.
     #[inline(always)]
     pub(super) fn at_first(block: &Block) -> Arms<V> {
@@ -142,7 +153,7 @@ pub(super) struct Response<V> {
     alone: [V; 2],
 }
 
-impl<V: Wide> Response<V> {
+impl<V: Numbers> Response<V> {
     #[inline(always)]
     fn of(arms: &Arms<V>, a: &Lanes<V>, b: &Lanes<V>) -> Response<V> {
         Response::with(arms, (a[INVERSE_MASS], a[INVERSE_MOMENT]), (b[INVERSE_MASS], b[INVERSE_MOMENT]))
@@ -180,7 +191,7 @@ impl<V: Wide> Response<V> {
 
 /// The gaps at both points by now; far where the owner has slipped off the face.
 #[inline(always)]
-pub(super) fn gaps<V: Wide>(block: &Block, a: &Lanes<V>, b: &Lanes<V>) -> [V; 2] {
+pub(super) fn gaps<V: Numbers>(block: &Block, a: &Lanes<V>, b: &Lanes<V>) -> [V; 2] {
     let (dx, dz) = (b[X] - a[X], b[Z] - a[Z]);
     let [nx, nz] = normal::<V>(block);
     let along_n = nx * dx + nz * dz;
@@ -195,7 +206,7 @@ pub(super) fn gaps<V: Wide>(block: &Block, a: &Lanes<V>, b: &Lanes<V>) -> [V; 2]
 
 /// Moves bodies apart where they are deeper in each other than they may be by the end of the step.
 #[inline(always)]
-fn part_overlap<V: Wide>(
+fn part_overlap<V: Numbers>(
     block: &Block,
     arms: &Arms<V>,
     (a, b): (&mut Lanes<V>, &mut Lanes<V>),
@@ -217,7 +228,7 @@ fn part_overlap<V: Wide>(
 
 /// Friction: against the slip, but for what it is to be, as far as the pushes hold it.
 #[inline(always)]
-fn rub<V: Wide>(block: &mut Block, arms: &Arms<V>, (a, b): (&mut Lanes<V>, &mut Lanes<V>), slips: Option<V>) {
+fn rub<V: Numbers>(block: &mut Block, arms: &Arms<V>, (a, b): (&mut Lanes<V>, &mut Lanes<V>), slips: Option<V>) {
     let mass = a[INVERSE_MASS] + b[INVERSE_MASS];
     let (turn_a, turn_b) = (a[INVERSE_MOMENT] * arms.along_a, b[INVERSE_MOMENT] * arms.along_b);
     let k = mass + turn_a * arms.along_a + turn_b * arms.along_b;
@@ -228,13 +239,13 @@ fn rub<V: Wide>(block: &mut Block, arms: &Arms<V>, (a, b): (&mut Lanes<V>, &mut 
     let most = V::of(&block.friction.0) * (p1 + p2);
     let grip = (before - slip * k.inverse()).min(most).max(-most);
     let more = grip - before;
-    block.grip = grip.eight();
+    grip.put(&mut block.grip);
     give((a, b), MOTION, [nz * more, -(nx * more)], [turn_a * more, turn_b * more]);
 }
 
 /// The pushes at both points.
 #[inline(always)]
-fn press<V: Wide>(block: &mut Block, arms: &Arms<V>, (a, b): (&mut Lanes<V>, &mut Lanes<V>), response: &Response<V>) {
+fn press<V: Numbers>(block: &mut Block, arms: &Arms<V>, (a, b): (&mut Lanes<V>, &mut Lanes<V>), response: &Response<V>) {
     let [nx, nz] = normal::<V>(block);
     let along_n = nx * (b[VX] - a[VX]) + nz * (b[VZ] - a[VZ]);
     let u1 = along_n + arms.lever_b[0] * b[SPIN] - arms.lever_a[0] * a[SPIN];
@@ -245,7 +256,8 @@ fn press<V: Wide>(block: &mut Block, arms: &Arms<V>, (a, b): (&mut Lanes<V>, &mu
     let q2 = u2 - asked[1] - (response.across * p1 + response.k[1] * p2);
     let [x1, x2] = response.complement([q1, q2]);
     let (d1, d2) = (x1 - p1, x2 - p2);
-    block.push = [x1.eight(), x2.eight()];
+    x1.put(&mut block.push[0]);
+    x2.put(&mut block.push[1]);
     let sum = d1 + d2;
     let turn_a = a[INVERSE_MOMENT] * (arms.lever_a[0] * d1 + arms.lever_a[1] * d2);
     let turn_b = b[INVERSE_MOMENT] * (arms.lever_b[0] * d1 + arms.lever_b[1] * d2);
@@ -258,7 +270,7 @@ const MOTION: [usize; 3] = [VX, VZ, SPIN];
 
 /// Gives p to b and −p to a, by their masses, with what it turns them; at those places of their rows.
 #[inline(always)]
-fn give<V: Wide>((a, b): (&mut Lanes<V>, &mut Lanes<V>), [x, z, turn]: [usize; 3], p: [V; 2], turned: [V; 2]) {
+fn give<V: Numbers>((a, b): (&mut Lanes<V>, &mut Lanes<V>), [x, z, turn]: [usize; 3], p: [V; 2], turned: [V; 2]) {
     a[x] = a[x] - a[INVERSE_MASS] * p[0];
     a[z] = a[z] - a[INVERSE_MASS] * p[1];
     a[turn] = a[turn] - turned[0];
@@ -269,7 +281,7 @@ fn give<V: Wide>((a, b): (&mut Lanes<V>, &mut Lanes<V>), [x, z, turn]: [usize; 3
 
 /// Gives pushes at both points and friction along the face to the bodies of a block.
 #[inline(always)]
-pub(super) fn push<V: Wide>(
+pub(super) fn push<V: Numbers>(
     block: &Block,
     arms: impl Fn(&Lanes<V>, &Lanes<V>) -> Arms<V>,
     rows: &mut [Row],
@@ -286,33 +298,26 @@ pub(super) fn push<V: Wide>(
     scatter(rows, &block.row_b, b);
 }
 
-/// The rows of eight bodies, a column for each of their numbers.
+/// The rows of a block's bodies on one side, a column for each of their numbers.
 #[inline(always)]
-pub(super) fn gather<V: Wide>(rows: &[Row], at: &[u32; LANES]) -> Lanes<V> {
-    let mut of = [V::zero(); LANES];
-    for k in 0..LANES {
-        of[k] = V::of(&rows[at[k] as usize].0);
-    }
-    V::transpose(of)
+pub(super) fn gather<V: Numbers>(rows: &[Row], at: &[u32; LANES]) -> Lanes<V> {
+    V::gather(|k| &rows[at[V::FIRST + k] as usize].0)
 }
 
 /// Puts them back.
 #[inline(always)]
-pub(super) fn scatter<V: Wide>(rows: &mut [Row], at: &[u32; LANES], lanes: Lanes<V>) {
-    let out = V::transpose(lanes);
-    for k in 0..LANES {
-        rows[at[k] as usize].0 = out[k].eight().0;
-    }
+pub(super) fn scatter<V: Numbers>(rows: &mut [Row], at: &[u32; LANES], lanes: Lanes<V>) {
+    V::scatter(lanes, |k, row| rows[at[V::FIRST + k] as usize].0 = row.0);
 }
 
 /// Two of a block's columns.
 #[inline(always)]
-pub(super) fn of<V: Wide>([first, second]: &[Eight; 2]) -> [V; 2] {
+pub(super) fn of<V: Numbers>([first, second]: &[Eight; 2]) -> [V; 2] {
     [V::of(&first.0), V::of(&second.0)]
 }
 
 /// The normals of a block's touches.
 #[inline(always)]
-pub(super) fn normal<V: Wide>(block: &Block) -> [V; 2] {
+pub(super) fn normal<V: Numbers>(block: &Block) -> [V; 2] {
     [V::of(&block.nx.0), V::of(&block.nz.0)]
 }

@@ -1,6 +1,6 @@
 //! What every rectangle sweeps over a step, eight at a time.
 
-use super::find::Acting;
+use super::acting::{Acting, Moving};
 use crate::bodies::Bodies;
 use crate::broad_phase::met::{Bounds, Owner};
 use crate::lanes::{LANES, Wide};
@@ -32,11 +32,12 @@ impl Work for SweepAll<'_> {
             let count = LANES.min(bounds.len() - first);
             let [x0, z0, x1, z1] = lanes.bounds(dt);
             let zero = V::zero();
-            let around = V::transpose([x0, z0, x1, z1, zero, zero, zero, zero]);
-            for k in 0..count {
-                let [x0, z0, x1, z1, ..] = around[k].eight().0;
-                bounds[first + k] = Bounds([x0, z0, x1, z1]);
-            }
+            V::scatter([x0, z0, x1, z1, zero, zero, zero, zero], |k, around| {
+                let [x0, z0, x1, z1, ..] = around.0;
+                if k < count {
+                    bounds[first + k] = Bounds([x0, z0, x1, z1]);
+                }
+            });
         }
     }
 }
@@ -46,40 +47,18 @@ struct Lanes<V> {
     o: [V; 2],
     cos: V,
     sin: V,
-    v: [V; 2],
-    omega: V,
     /// x_min, x_max, z_min, z_max.
     rect: [V; 4],
-    /// Acceleration and angular acceleration now.
-    acceleration: [V; 2],
-    angular: V,
-    /// 1 where the flight is uniform and without spin, else −1.
-    straight: V,
+    moving: Moving<V>,
 }
 
 impl<V: Wide> Lanes<V> {
     #[inline(always)]
     fn load(bodies: &Bodies, acting: Acting, owners: &[Owner], first: usize) -> Lanes<V> {
-        let (mut places, mut motions) = ([V::zero(); LANES], [V::zero(); LANES]);
-        for k in 0..LANES {
-            let at = (first + k).min(owners.len() - 1);
-            let (owner, body) = (owners[at], owners[at].body());
-            places[k] = V::of(&Acting::place(&bodies.frame[body], &bodies.rects[at]).0);
-            motions[k] = V::of(&acting.motion(&bodies.motion[body], owner).0);
-        }
-        let [x, z, cos, sin, x_min, x_max, z_min, z_max] = V::transpose(places);
-        let [vx, vz, omega, ax, az, angular, straight, _] = V::transpose(motions);
-        Lanes {
-            o: [x, z],
-            cos,
-            sin,
-            v: [vx, vz],
-            omega,
-            rect: [x_min, x_max, z_min, z_max],
-            acceleration: [ax, az],
-            angular,
-            straight,
-        }
+        let at = |k: usize| (first + k).min(owners.len() - 1);
+        let [x, z, cos, sin] = V::columns(|k| bodies.frame[owners[at(k)].body()].row());
+        let rect = V::columns(|k| bodies.rects[at(k)].row());
+        Lanes { o: [x, z], cos, sin, rect, moving: acting.moving(bodies, |k| owners[at(k)]) }
     }
 
     #[inline(always)]
@@ -108,16 +87,17 @@ impl<V: Wide> Lanes<V> {
         let [x_min, x_max, z_min, z_max] = self.rect;
         let (x, z) = (x_min.abs().max(x_max.abs()), z_min.abs().max(z_max.abs()));
         let radius = (x * x + z * z).root();
-        let turned = (self.omega.abs() + half * self.angular.abs() * time) * time * radius;
-        let [ax, az] = self.acceleration;
+        let turned = (self.moving.omega.abs() + half * self.moving.angular.abs() * time) * time * radius;
+        let [ax, az] = self.moving.acceleration;
         let stray = half * (ax * ax + az * az).root() * time * time;
         let room = V::all(ROOM) * hx.min(hz);
+        let straight = self.moving.free.min(V::zero().at_least(self.moving.omega.abs()));
         let (mut least, mut greatest) = ([V::zero(); 2], [V::zero(); 2]);
         for k in 0..2 {
             let (low, high) = (centre[k] - reach[k], centre[k] + reach[k]);
-            let low = self.straight.pick(low, (low - turned).max(-radius));
-            let high = self.straight.pick(high, (high + turned).min(radius));
-            let way = self.v[k] * time;
+            let low = straight.pick(low, (low - turned).max(-radius));
+            let high = straight.pick(high, (high + turned).min(radius));
+            let way = self.moving.v[k] * time;
             least[k] = self.o[k] + low + way.min(V::zero()) - stray - room;
             greatest[k] = self.o[k] + high + way.max(V::zero()) + stray + room;
         }

@@ -143,7 +143,7 @@ impl Contacts {
         }
         let paths = bodies.map(|body| self.path_of(world, body));
         let placed = [0, 1].map(|side| {
-            let mut placed = self.search.placed(&world.bodies, rects[side]).0;
+            let mut placed = self.search.placed(&world.bodies, rects[side]);
             placed.frame = &paths[side].frame;
             placed
         });
@@ -182,7 +182,7 @@ impl Contacts {
     /// Whether two rectangles may come to touch in what is left of the part, by the axis that held them apart when it began.
     fn may_meet(&mut self, world: &World, pair: usize, bodies: [usize; 2]) -> bool {
         let (one, two) = self.apart.pairs[pair];
-        let [a, b] = [one, two].map(|rect| self.search.placed(&world.bodies, rect).0);
+        let [a, b] = [one, two].map(|rect| self.search.placed(&world.bodies, rect));
         let (axis, gap) = *self.apart.axes[pair].get_or_insert_with(|| widest_gap(a.frame, a.rect, b.frame, b.rect));
         let left = self.dt - self.gone;
         let (mut now, mut end, mut room) = ([0.0; 2], [0.0; 2], 0.0);

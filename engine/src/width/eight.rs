@@ -5,14 +5,15 @@
 // processor has AVX-512. Loads and stores are of as many numbers as they are given.
 
 use core::arch::x86_64::{
-    __m512d, _CMP_GE_OQ, _CMP_GT_OQ, _CMP_LT_OQ, _mm512_abs_pd, _mm512_add_pd, _mm512_cmp_pd_mask, _mm512_div_pd,
+    __m512d, _CMP_GE_OQ, _CMP_GT_OQ, _CMP_LT_OQ, _mm256_loadu_pd, _mm512_abs_pd, _mm512_add_pd, _mm512_castpd256_pd512,
+    _mm512_cmp_pd_mask, _mm512_div_pd, _mm512_insertf64x4,
     _mm512_loadu_pd, _mm512_mask_blend_pd, _mm512_max_pd, _mm512_min_pd, _mm512_mul_pd, _mm512_set1_pd,
     _mm512_setzero_pd, _mm512_shuffle_f64x2, _mm512_sqrt_pd, _mm512_storeu_pd, _mm512_sub_pd, _mm512_unpackhi_pd,
     _mm512_unpacklo_pd,
 };
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use crate::lanes::{Eight, LANES, Wide};
+use crate::lanes::{Eight, LANES, Numbers, Wide};
 
 #[derive(Clone, Copy)]
 pub(super) struct Eights(__m512d);
@@ -53,7 +54,10 @@ impl Eights {
     }
 }
 
-impl Wide for Eights {
+impl Numbers for Eights {
+    const FIRST: usize = 0;
+    const COUNT: usize = LANES;
+
     #[inline(always)]
     fn of(numbers: &[f64; LANES]) -> Eights {
         Eights(unsafe { _mm512_loadu_pd(numbers.as_ptr()) })
@@ -64,6 +68,11 @@ impl Wide for Eights {
         let mut eight = Eight::ZERO;
         unsafe { _mm512_storeu_pd(eight.0.as_mut_ptr(), self.0) };
         eight
+    }
+
+    #[inline(always)]
+    fn put(self, eight: &mut Eight) {
+        *eight = self.eight();
     }
 
     #[inline(always)]
@@ -114,26 +123,72 @@ impl Wide for Eights {
         unsafe { _mm512_cmp_pd_mask::<_CMP_GT_OQ>(self.0, _mm512_setzero_pd()) != 0 }
     }
 
-    /// By pairs, then by fours, then by halves.
+    /// Two rows in a register, then as [`transpose`] goes on.
     #[inline(always)]
-    fn transpose(rows: [Eights; LANES]) -> [Eights; LANES] {
-        let [a, b, c, d, e, f, g, h] = rows;
+    fn columns(mut row: impl FnMut(usize) -> [f64; 4]) -> [Eights; 4] {
+        let (a, b) = (beside(row(0), row(2)), beside(row(1), row(3)));
+        let (c, d) = (beside(row(4), row(6)), beside(row(5), row(7)));
         unsafe {
-            let even = [
-                _mm512_unpacklo_pd(a.0, b.0),
-                _mm512_unpacklo_pd(c.0, d.0),
-                _mm512_unpacklo_pd(e.0, f.0),
-                _mm512_unpacklo_pd(g.0, h.0),
-            ];
-            let odd = [
-                _mm512_unpackhi_pd(a.0, b.0),
-                _mm512_unpackhi_pd(c.0, d.0),
-                _mm512_unpackhi_pd(e.0, f.0),
-                _mm512_unpackhi_pd(g.0, h.0),
-            ];
-            let ([c0, c2, c4, c6], [c1, c3, c5, c7]) = (columns(even), columns(odd));
-            [c0, c1, c2, c3, c4, c5, c6, c7]
+            let (even_ab, odd_ab) = (_mm512_unpacklo_pd(a, b), _mm512_unpackhi_pd(a, b));
+            let (even_cd, odd_cd) = (_mm512_unpacklo_pd(c, d), _mm512_unpackhi_pd(c, d));
+            [
+                Eights(_mm512_shuffle_f64x2::<0x88>(even_ab, even_cd)),
+                Eights(_mm512_shuffle_f64x2::<0x88>(odd_ab, odd_cd)),
+                Eights(_mm512_shuffle_f64x2::<0xDD>(even_ab, even_cd)),
+                Eights(_mm512_shuffle_f64x2::<0xDD>(odd_ab, odd_cd)),
+            ]
         }
+    }
+
+    #[inline(always)]
+    fn gather<'a>(mut row: impl FnMut(usize) -> &'a [f64; LANES]) -> [Eights; LANES] {
+        let low = [Eights::of(row(0)), Eights::of(row(1)), Eights::of(row(2)), Eights::of(row(3))];
+        let high = [Eights::of(row(4)), Eights::of(row(5)), Eights::of(row(6)), Eights::of(row(7))];
+        transpose([low[0], low[1], low[2], low[3], high[0], high[1], high[2], high[3]])
+    }
+
+    #[inline(always)]
+    fn scatter(columns: [Eights; LANES], mut put: impl FnMut(usize, Eight)) {
+        let rows = transpose(columns);
+        for k in 0..LANES {
+            put(k, rows[k].eight());
+        }
+    }
+}
+
+impl Wide for Eights {
+    type Low = Eights;
+    type High = Eights;
+}
+
+/// By pairs, then by fours, then by halves.
+#[inline(always)]
+fn transpose(rows: [Eights; LANES]) -> [Eights; LANES] {
+    let [a, b, c, d, e, f, g, h] = rows;
+    unsafe {
+        let even = [
+            _mm512_unpacklo_pd(a.0, b.0),
+            _mm512_unpacklo_pd(c.0, d.0),
+            _mm512_unpacklo_pd(e.0, f.0),
+            _mm512_unpacklo_pd(g.0, h.0),
+        ];
+        let odd = [
+            _mm512_unpackhi_pd(a.0, b.0),
+            _mm512_unpackhi_pd(c.0, d.0),
+            _mm512_unpackhi_pd(e.0, f.0),
+            _mm512_unpackhi_pd(g.0, h.0),
+        ];
+        let ([c0, c2, c4, c6], [c1, c3, c5, c7]) = (columns(even), columns(odd));
+        [c0, c1, c2, c3, c4, c5, c6, c7]
+    }
+}
+
+/// Two rows in one register.
+#[inline(always)]
+fn beside(low: [f64; 4], high: [f64; 4]) -> __m512d {
+    unsafe {
+        let low = _mm512_castpd256_pd512(_mm256_loadu_pd(low.as_ptr()));
+        _mm512_insertf64x4::<1>(low, _mm256_loadu_pd(high.as_ptr()))
     }
 }
 
