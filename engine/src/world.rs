@@ -85,7 +85,7 @@ impl World {
                 Some(Box::new(Continuous::new(middling, plan.exchange == ExchangePlan::Impulse, bodies.len())))
             }
         };
-        let contacts = plan.contact.map(|contact| Box::new(Contacts::new(contact, &bodies)));
+        let contacts = plan.contact.map(|contact| Box::new(Contacts::new(contact, plan.flight, &bodies)));
         Ok(World {
             continuous,
             contacts,

@@ -260,7 +260,8 @@ impl<V: Numbers> Abreast<V> {
         let (time, half) = (V::all(dt), V::all(0.5));
         let bent = half * (moves.bent() + other_moves.bent()) * time * time;
         let u = inward(reference.axis, sub(other_moves.middle, moves.middle));
-        let pulls = [inward(reference.axis, moves.body.acceleration), inward(reference.axis, other_moves.body.acceleration)];
+        let pulls =
+            [inward(reference.axis, moves.body.acceleration), inward(reference.axis, other_moves.body.acceleration)];
         let [c, s] = seen.axis;
         // The other's x and z axes along the reference's, and turned on by the end.
         let turn = other_moves.body.omega * time;

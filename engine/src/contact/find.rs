@@ -125,7 +125,12 @@ impl<F: Fn(usize) -> Frame + Copy> Work for Look<'_, F> {
 impl<'a, F: Fn(usize) -> Frame + Copy> Look<'a, F> {
     /// Puts pairs that come to touch behind those that wait, and others that are near among those that stay apart.
     #[inline(always)]
-    fn come<V: Numbers>(&mut self, keys: &[(u32, u32)], coming: &mut [Coming<'a>; 2 * LANES], mut waiting: usize) -> usize {
+    fn come<V: Numbers>(
+        &mut self,
+        keys: &[(u32, u32)],
+        coming: &mut [Coming<'a>; 2 * LANES],
+        mut waiting: usize,
+    ) -> usize {
         let (bodies, owners, dt) = (self.bodies, self.search.owners(), self.dt);
         let key = |k: usize| keys[k.min(keys.len() - 1)];
         let (one, two) = (|k: usize| key(k).0 as usize, |k: usize| key(k).1 as usize);

@@ -19,6 +19,16 @@ impl Kept {
         self.pushes.extend(blocks.iter().map(Block::pushes));
     }
 
+    /// Gives motions back, and pushes for those that there are by now.
+    pub(super) fn exchange(&mut self, rows: &mut [Row], blocks: &mut [Block]) {
+        for (block, kept) in blocks.iter_mut().zip(&mut self.pushes) {
+            let now = block.pushes();
+            block.set_pushes(*kept);
+            *kept = now;
+        }
+        rows.iter_mut().zip(&self.motions).for_each(|(row, kept)| row.set_motion(*kept));
+    }
+
     pub(super) fn give_back(&self, rows: &mut [Row], blocks: &mut [Block]) {
         rows.iter_mut().zip(&self.motions).for_each(|(row, kept)| row.set_motion(*kept));
         blocks.iter_mut().zip(&self.pushes).for_each(|(block, kept)| block.set_pushes(*kept));

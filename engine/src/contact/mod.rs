@@ -53,9 +53,10 @@ mod wake;
 mod weights;
 
 use crate::advance::advance_alone;
+use crate::area::Vec2;
 use crate::bodies::{Bodies, Motion};
 use crate::frame::Angle;
-use crate::plan::ContactPlan;
+use crate::plan::{ContactPlan, FlightPlan};
 use crate::step::Hit;
 use crate::width::Width;
 use crate::world::World;
@@ -88,6 +89,8 @@ const TOUCHING: f64 = 1e-9;
 #[derive(Clone, Debug)]
 pub(crate) struct Contacts {
     plan: ContactPlan,
+    /// Whether there is gravity.
+    falls: bool,
     width: Width,
     /// Gaps and depths up to this are none \[m\].
     band: f64,
@@ -142,11 +145,12 @@ pub(crate) struct Contacts {
 }
 
 impl Contacts {
-    pub(crate) fn new(plan: ContactPlan, bodies: &Bodies) -> Self {
+    pub(crate) fn new(plan: ContactPlan, flight: FlightPlan, bodies: &Bodies) -> Self {
         let mobile = || (0..bodies.len()).filter(|body| bodies.is_mobile(*body));
         let smallest = mobile().map(|body| bodies.smallest_half(body)).fold(f64::INFINITY, f64::min);
         Contacts {
             plan,
+            falls: flight.forces().0 != Vec2::zeros(),
             width: Width::best(),
             band: if smallest.is_finite() { TOUCHING * smallest } else { 0.0 },
             touches: Vec::new(),

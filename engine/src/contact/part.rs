@@ -8,10 +8,12 @@
 use super::Contacts;
 use super::blocks::Block;
 use super::rest::Effort;
-use super::rows::{Row, SPIN, TURN, VX, VZ, X, Z};
+use super::rows::{INVERSE_MASS, INVERSE_MOMENT, Row, SPIN, TURN, VX, VZ, X, Z};
 use super::solve::PATIENCE;
-use super::sweep::{Part, gaps, gather, of};
+use super::sweep::{Apart, Arms, Part, gaps, gather, of};
+use crate::area::Vec2;
 use crate::bodies::Motion;
+use crate::frame::perp;
 use crate::lanes::Wide;
 use crate::width::Work;
 use crate::world::World;
@@ -34,10 +36,16 @@ impl Contacts {
         if self.are_few() {
             self.part_to_the_end(world, excess);
         } else {
+            let apart = self.how_apart();
             let (rows, blocks) = (&mut self.rows.rows[..], &self.blocks.blocks[..]);
-            self.width.run(Part { rows, blocks, band: self.band });
+            self.width.run(Part { rows, blocks, apart });
         }
         true
+    }
+
+    /// How bodies are moved apart among many touches.
+    pub(super) fn how_apart(&self) -> Apart {
+        Apart { band: self.band, keeps_turning: !self.falls }
     }
 
     fn part_to_the_end(&mut self, world: &mut World, excess: f64) {
@@ -56,7 +64,45 @@ impl Contacts {
                 row.0[place] += row.0[way];
             }
         }
-        aside.give_back(&mut rows.rows, &mut blocks.blocks);
+        aside.exchange(&mut rows.rows, &mut blocks.blocks);
+        for k in 0..self.touches.len() {
+            self.keep_turning(k);
+        }
+    }
+
+    /// The bodies of a touch have been moved apart by the impulses that are laid aside, as if at those motions: two mobile ones keep
+    /// their angular momentum about each other, as they do among many touches ([`super::sweep`]).
+    fn keep_turning(&mut self, touch: usize) {
+        let Some((block, lane)) = self.blocks.lane(touch) else { return };
+        let (at, _) = self.blocks.place[touch];
+        let [p1, p2, along] = self.aside.pushes[at as usize].map(|moved| moved.0[lane]);
+        let (at_a, at_b) = (block.row_a[lane] as usize, block.row_b[lane] as usize);
+        let (a, b) = (&self.rows.rows[at_a].0, &self.rows.rows[at_b].0);
+        if (p1 + p2 == 0.0 && along == 0.0) || a[INVERSE_MASS].min(b[INVERSE_MASS]) == 0.0 {
+            return;
+        }
+        let n = Vec2::new(block.nx.0[lane], block.nz.0[lane]);
+        let t = -perp(n);
+        let moved = n * (p1 + p2) + t * along;
+        let slide = self.aside.motions[at_b].v - self.aside.motions[at_a].v;
+        let lost = moved.perp(&slide);
+        let arms = Arms::in_lane(block, lane, a, b);
+        let after = arms.along_b - arms.along_a;
+        let before = after - (a[INVERSE_MASS] + b[INVERSE_MASS]) * (p1 + p2);
+        let turns = a[INVERSE_MOMENT] + b[INVERSE_MOMENT];
+        let (slower, turn) = if before.min(after) > 0.0 {
+            (t * (lost / after), 0.0)
+        } else if turns > 0.0 {
+            (Vec2::zeros(), -lost * (a[INVERSE_MOMENT] * b[INVERSE_MOMENT]) / turns)
+        } else {
+            return;
+        };
+        for (at, sign) in [(at_a, -1.0), (at_b, 1.0)] {
+            let row = &mut self.rows.rows[at].0;
+            row[VX] += sign * row[INVERSE_MASS] * slower.x;
+            row[VZ] += sign * row[INVERSE_MASS] * slower.y;
+            row[SPIN] += turn;
+        }
     }
 }
 

@@ -9,7 +9,7 @@
 //! touch as it has touches, improving all at once never overshoots.
 
 use super::blocks::{Block, Blocks, Turned};
-use super::rows::{INVERSE_MASS, INVERSE_MOMENT, Row, Rows, SPIN, VX, VZ};
+use super::rows::{INVERSE_MASS, INVERSE_MOMENT, Row, Rows, SPIN, TURN, VX, VZ};
 use super::sweep::{Arms, Lanes, Response, gather, normal, of, push};
 use crate::lanes::{Eight, LANES, Wide};
 use crate::width::{Width, Work};
@@ -90,9 +90,8 @@ pub(super) struct Rest {
 /// Every touch has two parts that are improved at once: its pushes, and its friction.
 const PARTS: u32 = 2;
 
-/// In rows of this solver the displacements' places hold the shared-out inverse mass and moment.
-const SHARED_MASS: usize = 3;
-const SHARED_MOMENT: usize = 4;
+/// In rows of this solver the place of the turn holds how many times its inverse mass a body has in each of its touches.
+const SHARE: usize = TURN;
 
 impl Rest {
     /// Improves all touches until they are settled; gives how many rounds it took.
@@ -130,9 +129,8 @@ impl Rest {
         }
         let first = rows.first();
         let shared = |k: usize, touches: u32| {
-            let (mut row, share) = (rows.rows[k], f64::from(PARTS * touches));
-            row.0[SHARED_MASS] = row.0[INVERSE_MASS] * share;
-            row.0[SHARED_MOMENT] = row.0[INVERSE_MOMENT] * share;
+            let mut row = rows.rows[k];
+            row.0[SHARE] = f64::from(PARTS * touches);
             row
         };
         for k in 0..first {
@@ -210,15 +208,16 @@ impl<const TURNED: bool> Work for Round<'_, TURNED> {
         let (mut most, mut back, share) = (V::zero(), V::zero(), V::all(self.share));
         for (at, (block, guess)) in self.blocks.iter().zip(self.guesses).enumerate() {
             let (a, b) = (gather::<V>(self.from, &block.row_a), gather::<V>(self.from, &block.row_b));
-            let arms = Arms::<V>::at_first(block);
-            let shared = Response::with(&arms, (a[SHARED_MASS], a[SHARED_MOMENT]), (b[SHARED_MASS], b[SHARED_MOMENT]));
+            let arms = Arms::<V>::between_mobile(block, &a, &b);
+            let (shared_a, shared_b) = (shared(&a), shared(&b));
+            let response = Response::with(&arms, shared_a.1, shared_b.1);
             let (mut now, mut from) = ([V::zero(); 3], [V::zero(); 3]);
             for k in 0..3 {
                 now[k] = V::of(&guess.x[k].0);
                 from[k] = now[k] + share * (now[k] - V::of(&guess.last[k].0));
             }
             let slips = if TURNED { Some(V::of(&self.turned[at].slips.0)) } else { None };
-            let (x, change) = improve(block, &shared, (&a, &b), &from, slips);
+            let (x, change) = improve(block, (&arms, &response), (shared_a, shared_b), &from, slips);
             guess.last = guess.x;
             let mut step = x;
             for k in 0..3 {
@@ -227,32 +226,39 @@ impl<const TURNED: bool> Work for Round<'_, TURNED> {
                 step[k] = x[k] - from[k];
                 guess.x[k] = x[k].eight();
             }
-            push::<V>(block, |_, _| Arms::<V>::at_first(block), self.to, step);
+            push::<V>(block, |_, _| arms, self.to, step);
         }
         (most.greatest(), back.sum())
     }
+}
+
+/// A body of every touch, and the inverse mass and moment that it has there.
+type Shared<'a, V> = (&'a Lanes<V>, (V, V));
+
+#[inline(always)]
+fn shared<V: Wide>(row: &Lanes<V>) -> Shared<'_, V> {
+    (row, (row[INVERSE_MASS] * row[SHARE], row[INVERSE_MOMENT] * row[SHARE]))
 }
 
 /// Better pushes and friction, seeing the motions as they are; and the changes as velocities.
 #[inline(always)]
 fn improve<V: Wide>(
     block: &Block,
-    shared: &Response<V>,
-    (a, b): (&Lanes<V>, &Lanes<V>),
+    (arms, shared): (&Arms<V>, &Response<V>),
+    ((a, (mass_a, moment_a)), (b, (mass_b, moment_b))): (Shared<V>, Shared<V>),
     from: &[V; 3],
     slips: Option<V>,
 ) -> ([V; 3], [V; 3]) {
     let (ux, uz) = (b[VX] - a[VX], b[VZ] - a[VZ]);
     let ([nx, nz], asked) = (normal::<V>(block), of::<V>(&block.asked));
-    let Arms { lever_a, lever_b, along_a, along_b } = Arms::<V>::at_first(block);
+    let Arms { lever_a, lever_b, along_a, along_b } = *arms;
     let along_n = nx * ux + nz * uz;
     let u1 = along_n + lever_b[0] * b[SPIN] - lever_a[0] * a[SPIN];
     let u2 = along_n + lever_b[1] * b[SPIN] - lever_a[1] * a[SPIN];
     let q1 = u1 - asked[0] - (shared.k[0] * from[0] + shared.across * from[1]);
     let q2 = u2 - asked[1] - (shared.across * from[0] + shared.k[1] * from[1]);
     let [x1, x2] = shared.complement([q1, q2]);
-    let mass = a[SHARED_MASS] + b[SHARED_MASS];
-    let k = mass + a[SHARED_MOMENT] * along_a * along_a + b[SHARED_MOMENT] * along_b * along_b;
+    let k = mass_a + mass_b + moment_a * along_a * along_a + moment_b * along_b * along_b;
     let slip = nz * ux - nx * uz + along_b * b[SPIN] - along_a * a[SPIN];
     let slip = if let Some(slips) = slips { slip - slips } else { slip };
     let most = V::of(&block.friction.0) * (x1 + x2);

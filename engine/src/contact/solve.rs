@@ -205,18 +205,18 @@ impl Contacts {
 
     /// A sweep over the blocks from that one on.
     fn sweep(&mut self, from: usize, back: bool) {
-        let parts = !self.are_few();
+        let (parts, apart) = (!self.are_few(), self.how_apart());
         let Blocks { blocks, turned, .. } = &mut self.blocks;
         let turned = turned.get(from..).unwrap_or_default();
-        let (rows, blocks, band) = (&mut self.rows.rows[..], &mut blocks[from..], self.band);
+        let (rows, blocks) = (&mut self.rows.rows[..], &mut blocks[from..]);
         match (self.plan.friction, parts) {
-            (true, true) => self.width.run(Sweep::<true, true, false> { rows, blocks, turned, band, back }),
+            (true, true) => self.width.run(Sweep::<true, true, false> { rows, blocks, turned, apart, back }),
             (true, false) if turned.is_empty() => {
-                self.width.run(Sweep::<true, false, false> { rows, blocks, turned, band, back });
+                self.width.run(Sweep::<true, false, false> { rows, blocks, turned, apart, back });
             }
-            (true, false) => self.width.run(Sweep::<true, false, true> { rows, blocks, turned, band, back }),
-            (false, true) => self.width.run(Sweep::<false, true, false> { rows, blocks, turned, band, back }),
-            (false, false) => self.width.run(Sweep::<false, false, false> { rows, blocks, turned, band, back }),
+            (true, false) => self.width.run(Sweep::<true, false, true> { rows, blocks, turned, apart, back }),
+            (false, true) => self.width.run(Sweep::<false, true, false> { rows, blocks, turned, apart, back }),
+            (false, false) => self.width.run(Sweep::<false, false, false> { rows, blocks, turned, apart, back }),
         }
     }
 }

@@ -20,8 +20,7 @@ pub(super) struct Sweep<'a, const FRICTION: bool, const PART: bool, const TURNED
     pub(super) blocks: &'a mut [Block],
     /// As many, where touches are turned.
     pub(super) turned: &'a [Turned],
-    /// Gaps and depths up to this are none \[m\].
-    pub(super) band: f64,
+    pub(super) apart: Apart,
     /// From the last touch to the first: sweeps to and fro favour neither end of a pile.
     pub(super) back: bool,
 }
@@ -50,24 +49,34 @@ impl<const FRICTION: bool, const PART: bool, const TURNED: bool> Sweep<'_, FRICT
         let (mut a, mut b) = (gather::<V>(self.rows, &block.row_a), gather::<V>(self.rows, &block.row_b));
         let arms = Arms::of(block, &a, &b);
         let response = Response::of(&arms, &a, &b);
-        if PART {
-            part_overlap(block, &arms, (&mut a, &mut b), &response, V::all(self.band));
-        }
         press(block, &arms, (&mut a, &mut b), &response);
         if FRICTION {
             let slips = if TURNED { Some(V::of(&self.turned[at].slips.0)) } else { None };
             rub(block, &arms, (&mut a, &mut b), slips);
+        }
+        if PART {
+            part_overlap(block, &arms, (&mut a, &mut b), &response, self.apart);
         }
         scatter(self.rows, &block.row_a, a);
         scatter(self.rows, &block.row_b, b);
     }
 }
 
-/// Bodies that are in each other are moved apart, once round; velocities stay.
+/// How bodies that are in each other are moved apart.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Apart {
+    /// Gaps and depths up to this are none \[m\].
+    pub(super) band: f64,
+    /// Whether two mobile ones keep their angular momentum about each other to the last digit: where gravity turns everything about
+    /// everything else, what is lost is lost in that.
+    pub(super) keeps_turning: bool,
+}
+
+/// Bodies that are in each other are moved apart, once round.
 pub(super) struct Part<'a> {
     pub(super) rows: &'a mut [Row],
     pub(super) blocks: &'a [Block],
-    pub(super) band: f64,
+    pub(super) apart: Apart,
 }
 
 impl Work for Part<'_> {
@@ -79,7 +88,7 @@ impl Work for Part<'_> {
             let (mut a, mut b) = (gather::<V>(self.rows, &block.row_a), gather::<V>(self.rows, &block.row_b));
             let arms = Arms::of(block, &a, &b);
             let response = Response::of(&arms, &a, &b);
-            part_overlap(block, &arms, (&mut a, &mut b), &response, V::all(self.band));
+            part_overlap(block, &arms, (&mut a, &mut b), &response, self.apart);
             scatter(self.rows, &block.row_a, a);
             scatter(self.rows, &block.row_b, b);
         }
@@ -90,6 +99,7 @@ pub(super) type Lanes<V> = [V; LANES];
 
 /// The levers of a block by now: the bodies may have slipped past each other since the step began, and both levers must lead
 /// to the same place, for angular momentum to be kept to the last digit.
+#[derive(Clone, Copy)]
 pub(super) struct Arms<V> {
     pub(super) lever_a: [V; 2],
     pub(super) lever_b: [V; 2],
@@ -112,6 +122,14 @@ impl<V: Numbers> Arms<V> {
     #[inline(always)]
     pub(super) fn of(block: &Block, a: &Lanes<V>, b: &Lanes<V>) -> Arms<V> {
         Arms::at_first(block).moved(normal::<V>(block), [b[X] - a[X], b[Z] - a[Z]], V::all(0.5))
+    }
+
+    /// The same between two mobile bodies; on a fixed one, which takes any angular momentum, those as the step began.
+    #[inline(always)]
+    pub(super) fn between_mobile(block: &Block, a: &Lanes<V>, b: &Lanes<V>) -> Arms<V> {
+        let both = V::zero().less(a[INVERSE_MASS].min(b[INVERSE_MASS]));
+        let half = both.pick(V::all(0.5), V::zero());
+        Arms::at_first(block).moved(normal::<V>(block), [b[X] - a[X], b[Z] - a[Z]], half)
     }
 }
 
@@ -211,9 +229,9 @@ fn part_overlap<V: Numbers>(
     arms: &Arms<V>,
     (a, b): (&mut Lanes<V>, &mut Lanes<V>),
     response: &Response<V>,
-    band: V,
+    how: Apart,
 ) {
-    let (gap, least) = (gaps(block, a, b), of::<V>(&block.least));
+    let (gap, least, band) = (gaps(block, a, b), of::<V>(&block.least), V::all(how.band));
     let room = [gap[0] - least[0] + band, gap[1] - least[1] + band];
     if !(-room[0].min(room[1])).any() {
         return;
@@ -224,6 +242,27 @@ fn part_overlap<V: Numbers>(
     let turn_b = b[INVERSE_MOMENT] * (arms.lever_b[0] * x1 + arms.lever_b[1] * x2);
     let [nx, nz] = normal::<V>(block);
     give((a, b), PLACE, [nx * sum, nz * sum], [turn_a, turn_b]);
+    if how.keeps_turning {
+        keep_turning((a, b), arms.along_b - arms.along_a, sum, [nx, nz]);
+    }
+}
+
+/// Two mobile bodies that lay so far from each other have been moved apart by that impulse: their angular momentum about each other
+/// stays. They slide past each other less fast by then, as a skater turns less fast with arms spread; where their centres have
+/// passed each other both turn instead.
+#[inline(always)]
+fn keep_turning<V: Numbers>((a, b): (&mut Lanes<V>, &mut Lanes<V>), before: V, apart: V, [nx, nz]: [V; 2]) {
+    let (mass_a, mass_b) = (a[INVERSE_MASS], b[INVERSE_MASS]);
+    let (turns_a, turns_b, zero) = (a[INVERSE_MOMENT], b[INVERSE_MOMENT], V::zero());
+    let after = before + (mass_a + mass_b) * apart;
+    let passed = before.less(zero).max(zero.at_least(after));
+    let by = passed.pick(turns_a + turns_b, after);
+    let both = zero.less(mass_a.min(mass_b).min(by));
+    let share = both.pick(apart, zero) / both.pick(by, V::all(1.0));
+    let slide = nz * (b[VX] - a[VX]) - nx * (b[VZ] - a[VZ]);
+    let slower = passed.pick(zero, -(share * slide));
+    let turn = passed.pick(share * (turns_a * turns_b) * slide, zero);
+    give((a, b), MOTION, [nz * slower, -(nx * slower)], [-turn, turn]);
 }
 
 /// Friction: against the slip, but for what it is to be, as far as the pushes hold it.
@@ -245,7 +284,12 @@ fn rub<V: Numbers>(block: &mut Block, arms: &Arms<V>, (a, b): (&mut Lanes<V>, &m
 
 /// The pushes at both points.
 #[inline(always)]
-fn press<V: Numbers>(block: &mut Block, arms: &Arms<V>, (a, b): (&mut Lanes<V>, &mut Lanes<V>), response: &Response<V>) {
+fn press<V: Numbers>(
+    block: &mut Block,
+    arms: &Arms<V>,
+    (a, b): (&mut Lanes<V>, &mut Lanes<V>),
+    response: &Response<V>,
+) {
     let [nx, nz] = normal::<V>(block);
     let along_n = nx * (b[VX] - a[VX]) + nz * (b[VZ] - a[VZ]);
     let u1 = along_n + arms.lever_b[0] * b[SPIN] - arms.lever_a[0] * a[SPIN];

@@ -132,7 +132,8 @@ impl Ledger {
     pub(crate) fn book_stint(&mut self, bodies: &Bodies, stint: &Stint, forces: &Forces) {
         let Stint { body, set_out, arrived, turn, free, motion, time, by_force } = *stint;
         let stands = bodies.frame[body].o + self.origin;
-        let from = self.moved_apart(bodies, body, stands + set_out, set_out);
+        let before = self.contact.reached[body].state;
+        let from = self.moved_apart(bodies, body, State { o: stands + set_out, ..before }, set_out);
         let to = State { o: stands + arrived, motion };
         self.contact.reached[body] = Reached { state: to, come: arrived };
         let (inertia, Forces { gravity, pushed, drag, .. }) = (bodies.inertia[body], *forces);
@@ -171,15 +172,13 @@ impl Ledger {
         self.contact.rest.add_all(&rest);
     }
 
-    /// A body as it is, at a place: what has moved it on from where it was booked, if anything, was no motion of its own.
-    fn moved_apart(&mut self, bodies: &Bodies, body: usize, o: Vec2, come: Vec2) -> State {
+    /// A body as it is by now: what has moved it on from where it was booked, if anything, was no motion of its own.
+    fn moved_apart(&mut self, bodies: &Bodies, body: usize, to: State, come: Vec2) -> State {
         let Reached { state, come: before } = self.contact.reached[body];
         if come == before {
             return state;
         }
-        let to = State { o, ..state };
-        let moved = Sums::of_change(bodies.inertia[body], state, to);
-        self.book_rest(Cause::Relocation, &moved.energy_and_momenta().1);
+        self.book_rest(Cause::Relocation, &Sums::of_change(bodies.inertia[body], state, to));
         self.relocated.add((come - before).norm());
         self.relocations += 1;
         to
@@ -238,7 +237,7 @@ impl Ledger {
     /// A body in contact was put to where it has come to, but for what rounding makes of that.
     pub(crate) fn settle_in(&mut self, bodies: &Bodies, body: usize, come: Vec2) {
         let now = self.state(bodies, body);
-        let booked = self.moved_apart(bodies, body, now.o, come);
+        let booked = self.moved_apart(bodies, body, now, come);
         let rounded = Sums::of_change(bodies.inertia[body], booked, now);
         self.book_rest(Cause::Exchange, &rounded.energy_and_momenta().1);
     }

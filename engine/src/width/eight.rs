@@ -6,10 +6,9 @@
 
 use core::arch::x86_64::{
     __m512d, _CMP_GE_OQ, _CMP_GT_OQ, _CMP_LT_OQ, _mm256_loadu_pd, _mm512_abs_pd, _mm512_add_pd, _mm512_castpd256_pd512,
-    _mm512_cmp_pd_mask, _mm512_div_pd, _mm512_insertf64x4,
-    _mm512_loadu_pd, _mm512_mask_blend_pd, _mm512_max_pd, _mm512_min_pd, _mm512_mul_pd, _mm512_set1_pd,
-    _mm512_setzero_pd, _mm512_shuffle_f64x2, _mm512_sqrt_pd, _mm512_storeu_pd, _mm512_sub_pd, _mm512_unpackhi_pd,
-    _mm512_unpacklo_pd,
+    _mm512_cmp_pd_mask, _mm512_div_pd, _mm512_insertf64x4, _mm512_loadu_pd, _mm512_mask_blend_pd, _mm512_max_pd,
+    _mm512_min_pd, _mm512_mul_pd, _mm512_set1_pd, _mm512_setzero_pd, _mm512_shuffle_f64x2, _mm512_sqrt_pd,
+    _mm512_storeu_pd, _mm512_sub_pd, _mm512_unpackhi_pd, _mm512_unpacklo_pd,
 };
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -149,9 +148,8 @@ impl Numbers for Eights {
 
     #[inline(always)]
     fn scatter(columns: [Eights; LANES], mut put: impl FnMut(usize, Eight)) {
-        let rows = transpose(columns);
-        for k in 0..LANES {
-            put(k, rows[k].eight());
+        for (k, row) in transpose(columns).into_iter().enumerate() {
+            put(k, row.eight());
         }
     }
 }

@@ -237,10 +237,7 @@ impl Numbers for Fours {
 
     #[inline(always)]
     fn pick(self, where_not_negative: Fours, otherwise: Fours) -> Fours {
-        Fours(
-            self.0.pick(where_not_negative.0, otherwise.0),
-            self.1.pick(where_not_negative.1, otherwise.1),
-        )
+        Fours(self.0.pick(where_not_negative.0, otherwise.0), self.1.pick(where_not_negative.1, otherwise.1))
     }
 
     #[inline(always)]

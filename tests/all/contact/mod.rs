@@ -18,6 +18,7 @@
 //! | P14, random piles: energy never grows | [`energy`] |
 //! | restitution beside and on what rests | [`bouncing`] |
 //! | T30, walls that close on fifty cars | [`crush`] |
+//! | momenta of what is driven apart | [`momenta`] |
 //! | T11, T12, darts, what is struck before a wall: fast bodies | [`fast`] |
 //!
 //! Most are scenarios too: `scenarios/contact`.
@@ -31,6 +32,7 @@ mod energy;
 mod fast;
 mod kit;
 mod loads;
+mod momenta;
 mod rocking;
 mod sliding;
 mod stacks;
