@@ -188,8 +188,8 @@ mod tests {
             let (columns, first, (narrow, count), back) = width.run(Turned(rows));
             assert_eq!(back, rows, "{width:?}");
             for (i, row) in rows.iter().enumerate() {
-                for j in 0..LANES {
-                    assert_eq!(columns[j].0[i], row.0[j], "{width:?}");
+                for (j, column) in columns.iter().enumerate() {
+                    assert_eq!(column.0[i], row.0[j], "{width:?}");
                 }
                 for j in 0..4 {
                     assert_eq!(first[j].0[i], row.0[j], "{width:?}");
