@@ -117,13 +117,15 @@ impl Open {
 }
 
 impl Blocks {
-    /// Lays the touches out, with the rows of their bodies; but for those that are `left` out, which are in order.
+    /// Lays the touches out, with the rows of their bodies; but for those that are `left` out, which are in order. Those that did not
+    /// press a step ago may have blocks of their own, before the others: most of them do nothing, and blocks of such are soon done.
     pub(super) fn fill(
         &mut self,
         (touches, of_touch): (&[Touch], &[(u32, u32)]),
         left: &[u32],
         rows: &Rows,
         (keep, band): (f64, f64),
+        sorts: bool,
     ) {
         self.count = touches.len() - left.len();
         self.more = None;
@@ -134,16 +136,19 @@ impl Blocks {
         self.standing.clear();
         self.standing.resize(rows.rows.len(), Standing::NOWHERE);
         self.rows.clear();
-        let mut open = Open::default();
-        let mut left = left.iter().peekable();
-        for (k, (touch, &(a, b))) in touches.iter().zip(of_touch).enumerate() {
-            if left.next_if(|next| **next as usize == k).is_some() {
-                self.place.push(NOWHERE);
-                continue;
+        self.place.resize(touches.len(), NOWHERE);
+        for presses in [false, true] {
+            let mut open = Open { first: self.blocks.len() as u32, full: 0 };
+            let mut left = left.iter().peekable();
+            for (k, (touch, &(a, b))) in touches.iter().zip(of_touch).enumerate() {
+                let is_left = left.next_if(|next| **next as usize == k).is_some();
+                if is_left || presses != (!sorts || touch.push[0] + touch.push[1] > 0.0) {
+                    continue;
+                }
+                let (block, lane) = self.take_lane(&mut open, rows, [a, b]);
+                self.blocks[block as usize].set(lane as usize, touch, (a, b), keep, band);
+                self.place[k] = (block, lane);
             }
-            let (block, lane) = self.take_lane(&mut open, rows, [a, b]);
-            self.blocks[block as usize].set(lane as usize, touch, (a, b), keep, band);
-            self.place.push((block, lane));
         }
     }
 

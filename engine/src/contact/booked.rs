@@ -1,8 +1,9 @@
 //! What the contact solver tells the ledger, where one is kept.
 
 use super::Contacts;
+use super::arms::Arms;
 use super::rows::{X, Z};
-use super::sweep::Arms;
+
 use crate::area::Vec2;
 use crate::bodies::Motion;
 use crate::detect::manifold::Manifold;

@@ -7,9 +7,10 @@
 //!                                                and no more below −g/h than forces change in a sub-step
 //! ```
 
+use super::arms::Arms;
 use super::blocks::Block;
 use super::rows::{Row, SPIN, VX, VZ};
-use super::sweep::{Arms, gaps, gather, normal, of, push};
+use super::sweep::{gaps, gather, normal, of, push};
 use crate::lanes::Wide;
 use crate::width::Work;
 

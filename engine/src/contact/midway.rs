@@ -12,9 +12,10 @@
 //! order only: the push turns the block by the lever of a moment ago. So each touch gets the levers and the normal it has midway,
 //! and is asked to part by as much more as its speed along them is less than along those at the start.
 
+use super::arms::{Arms, Lanes};
 use super::blocks::{Block, Turned};
 use super::rows::{INVERSE_MASS, Row, SPIN, TURN, VX, VZ, X, Z};
-use super::sweep::{Arms, Lanes, gaps, gather, normal, of};
+use super::sweep::{gaps, gather, normal, of};
 use crate::lanes::Wide;
 use crate::width::Work;
 

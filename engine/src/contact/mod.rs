@@ -18,6 +18,7 @@
 mod abreast;
 mod acting;
 mod ahead;
+mod arms;
 mod blocks;
 mod booked;
 mod fast;
@@ -331,8 +332,9 @@ impl Contacts {
                 self.crowd.push(k as u32);
             }
         }
+        let idles = self.idles(self.touches.len() - self.pairs.left_out().len());
         let Contacts { blocks, touches, of_touch, pairs, rows, apart, keep, band, .. } = self;
-        blocks.fill((touches, of_touch), pairs.left_out(), rows, (*keep, *band));
+        blocks.fill((touches, of_touch), pairs.left_out(), rows, (*keep, *band), idles);
         apart.begin_pushing(rows, |row| blocks.hold(row));
     }
 

@@ -6,11 +6,12 @@
 //! there every sweep over velocities moves apart what it meets ([`super::sweep`]).
 
 use super::Contacts;
+use super::arms::Arms;
 use super::blocks::Block;
 use super::rest::Effort;
 use super::rows::{INVERSE_MASS, INVERSE_MOMENT, Row, SPIN, TURN, VX, VZ, X, Z};
 use super::solve::PATIENCE;
-use super::sweep::{Apart, Arms, Part, gaps, gather, of};
+use super::sweep::{Apart, Part, gaps, gather, of};
 use crate::area::Vec2;
 use crate::bodies::Motion;
 use crate::frame::perp;

@@ -8,9 +8,10 @@
 //! Each body is shared out among its touches (mass splitting, Tonge 2012): with as many times its true inverse mass in every
 //! touch as it has touches, improving all at once never overshoots.
 
+use super::arms::{Arms, Lanes, Response};
 use super::blocks::{Block, Blocks, Turned};
 use super::rows::{INVERSE_MASS, INVERSE_MOMENT, Row, Rows, SPIN, TURN, VX, VZ};
-use super::sweep::{Arms, Lanes, Response, gather, normal, of, push};
+use super::sweep::{gather, normal, of, push};
 use crate::lanes::{Eight, LANES, Wide};
 use crate::width::{Width, Work};
 

@@ -9,8 +9,8 @@
 //! ```
 
 use super::Contacts;
+use super::arms::Arms;
 use super::rows::{INVERSE_MASS, INVERSE_MOMENT, SPIN, VX, VZ};
-use super::sweep::Arms;
 
 /// What a point parts and slips by more than it should were nothing pushed, and how that answers pushes and friction.
 struct Alone {

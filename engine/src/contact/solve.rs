@@ -176,6 +176,11 @@ impl Contacts {
         self.blocks.count <= FEW
     }
 
+    /// Whether most of so many touches do nothing: what nothing presses together flies apart once it has met.
+    pub(super) fn idles(&self, touches: usize) -> bool {
+        touches > FEW && !self.falls
+    }
+
     /// How many rounds are always worth it.
     fn worthwhile(&self, budget: &Budget) -> u32 {
         let count = self.blocks.count as u64;
@@ -206,17 +211,18 @@ impl Contacts {
     /// A sweep over the blocks from that one on.
     fn sweep(&mut self, from: usize, back: bool) {
         let (parts, apart) = (!self.are_few(), self.how_apart());
+        let idles = self.idles(self.blocks.count);
         let Blocks { blocks, turned, .. } = &mut self.blocks;
         let turned = turned.get(from..).unwrap_or_default();
         let (rows, blocks) = (&mut self.rows.rows[..], &mut blocks[from..]);
         match (self.plan.friction, parts) {
-            (true, true) => self.width.run(Sweep::<true, true, false> { rows, blocks, turned, apart, back }),
+            (true, true) => self.width.run(Sweep::<true, true, false> { rows, blocks, turned, apart, idles, back }),
             (true, false) if turned.is_empty() => {
-                self.width.run(Sweep::<true, false, false> { rows, blocks, turned, apart, back });
+                self.width.run(Sweep::<true, false, false> { rows, blocks, turned, apart, idles, back });
             }
-            (true, false) => self.width.run(Sweep::<true, false, true> { rows, blocks, turned, apart, back }),
-            (false, true) => self.width.run(Sweep::<false, true, false> { rows, blocks, turned, apart, back }),
-            (false, false) => self.width.run(Sweep::<false, false, false> { rows, blocks, turned, apart, back }),
+            (true, false) => self.width.run(Sweep::<true, false, true> { rows, blocks, turned, apart, idles, back }),
+            (false, true) => self.width.run(Sweep::<false, true, false> { rows, blocks, turned, apart, idles, back }),
+            (false, false) => self.width.run(Sweep::<false, false, false> { rows, blocks, turned, apart, idles, back }),
         }
     }
 }

@@ -5,14 +5,11 @@
 //! and the pushes are solved: u ≥ what the point asks ([`super::look`]), push ≥ 0, and one of the two exact. That 2×2
 //! complementarity problem is solved in closed form, all cases side by side and the right one picked.
 
+use super::arms::{Arms, Lanes, Response};
 use super::blocks::{Block, Turned};
 use super::rows::{INVERSE_MASS, INVERSE_MOMENT, Row, SPIN, TURN, VX, VZ, X, Z};
 use crate::lanes::{Eight, LANES, Numbers, Wide};
 use crate::width::Work;
-use core::ops::{Add, Mul, Sub};
-
-/// A determinant below this share of its terms is none.
-const SAME: f64 = 1e-12;
 
 /// One sweep.
 pub(super) struct Sweep<'a, const FRICTION: bool, const PART: bool, const TURNED: bool> {
@@ -21,6 +18,8 @@ pub(super) struct Sweep<'a, const FRICTION: bool, const PART: bool, const TURNED
     /// As many, where touches are turned.
     pub(super) turned: &'a [Turned],
     pub(super) apart: Apart,
+    /// Whether many touches do nothing: they are not taken further than to see that.
+    pub(super) idles: bool,
     /// From the last touch to the first: sweeps to and fro favour neither end of a pile.
     pub(super) back: bool,
 }
@@ -48,8 +47,16 @@ impl<const FRICTION: bool, const PART: bool, const TURNED: bool> Sweep<'_, FRICT
         let block = &mut self.blocks[at];
         let (mut a, mut b) = (gather::<V>(self.rows, &block.row_a), gather::<V>(self.rows, &block.row_b));
         let arms = Arms::of(block, &a, &b);
+        let parts = parts(block, &arms, &a, &b);
+        if self.idles {
+            let pushes = V::of(&block.push[0].0) + V::of(&block.push[1].0) + V::of(&block.grip.0).abs();
+            let idle = !(-parts[0].min(parts[1])).max(pushes).any();
+            if idle && !(PART && is_deep(room(block, &a, &b, self.apart.band))) {
+                return;
+            }
+        }
         let response = Response::of(&arms, &a, &b);
-        press(block, &arms, (&mut a, &mut b), &response);
+        press(block, &arms, (&mut a, &mut b), &response, parts);
         if FRICTION {
             let slips = if TURNED { Some(V::of(&self.turned[at].slips.0)) } else { None };
             rub(block, &arms, (&mut a, &mut b), slips);
@@ -95,118 +102,6 @@ impl Work for Part<'_> {
     }
 }
 
-pub(super) type Lanes<V> = [V; LANES];
-
-/// The levers of a block by now: the bodies may have slipped past each other since the step began, and both levers must lead
-/// to the same place, for angular momentum to be kept to the last digit.
-#[derive(Clone, Copy)]
-pub(super) struct Arms<V> {
-    pub(super) lever_a: [V; 2],
-    pub(super) lever_b: [V; 2],
-    pub(super) along_a: V,
-    pub(super) along_b: V,
-}
-
-impl<V: Numbers> Arms<V> {
-    /// The levers as the step began.
-    #[inline(always)]
-    pub(super) fn at_first(block: &Block) -> Arms<V> {
-        Arms {
-            lever_a: of(&block.lever_a),
-            lever_b: of(&block.lever_b),
-            along_a: V::of(&block.along_a.0),
-            along_b: V::of(&block.along_b.0),
-        }
-    }
-
-    #[inline(always)]
-    pub(super) fn of(block: &Block, a: &Lanes<V>, b: &Lanes<V>) -> Arms<V> {
-        Arms::at_first(block).moved(normal::<V>(block), [b[X] - a[X], b[Z] - a[Z]], V::all(0.5))
-    }
-
-    /// The same between two mobile bodies; on a fixed one, which takes any angular momentum, those as the step began.
-    #[inline(always)]
-    pub(super) fn between_mobile(block: &Block, a: &Lanes<V>, b: &Lanes<V>) -> Arms<V> {
-        let both = V::zero().less(a[INVERSE_MASS].min(b[INVERSE_MASS]));
-        let half = both.pick(V::all(0.5), V::zero());
-        Arms::at_first(block).moved(normal::<V>(block), [b[X] - a[X], b[Z] - a[Z]], half)
-    }
-}
-
-impl Arms<f64> {
-    /// The same in one lane, with the rows of its bodies.
-    pub(super) fn in_lane(block: &Block, lane: usize, a: &[f64; LANES], b: &[f64; LANES]) -> Arms<f64> {
-        let first = Arms {
-            lever_a: block.lever_a.map(|lever| lever.0[lane]),
-            lever_b: block.lever_b.map(|lever| lever.0[lane]),
-            along_a: block.along_a.0[lane],
-            along_b: block.along_b.0[lane],
-        };
-        first.moved([block.nx.0[lane], block.nz.0[lane]], [b[X] - a[X], b[Z] - a[Z]], 0.5)
-    }
-}
-
-impl<T: Copy + Add<Output = T> + Sub<Output = T> + Mul<Output = T>> Arms<T> {
-    /// Where b has moved on by d from a since: both levers by half of it.
-    #[inline(always)]
-    fn moved(self, [nx, nz]: [T; 2], [dx, dz]: [T; 2], half: T) -> Arms<T> {
-        let apart = (nx * dx + nz * dz) * half;
-        let slipped = (nz * dx - nx * dz) * half;
-        let Arms { lever_a, lever_b, along_a, along_b } = self;
-        Arms {
-            lever_a: [lever_a[0] + slipped, lever_a[1] + slipped],
-            lever_b: [lever_b[0] - slipped, lever_b[1] - slipped],
-            along_a: along_a - apart,
-            along_b: along_b + apart,
-        }
-    }
-}
-
-/// How velocities at the two points answer pushes there.
-pub(super) struct Response<V> {
-    pub(super) k: [V; 2],
-    pub(super) across: V,
-    /// 1/det, 1/k.
-    inverse: V,
-    alone: [V; 2],
-}
-
-impl<V: Numbers> Response<V> {
-    #[inline(always)]
-    fn of(arms: &Arms<V>, a: &Lanes<V>, b: &Lanes<V>) -> Response<V> {
-        Response::with(arms, (a[INVERSE_MASS], a[INVERSE_MOMENT]), (b[INVERSE_MASS], b[INVERSE_MOMENT]))
-    }
-
-    /// The response of bodies with these inverse masses and moments.
-    #[inline(always)]
-    pub(super) fn with(arms: &Arms<V>, (mass_a, turn_a): (V, V), (mass_b, turn_b): (V, V)) -> Response<V> {
-        let mass = mass_a + mass_b;
-        let ([a1, a2], [b1, b2]) = (arms.lever_a, arms.lever_b);
-        let (ta1, tb1) = (turn_a * a1, turn_b * b1);
-        let k1 = mass + ta1 * a1 + tb1 * b1;
-        let k2 = mass + turn_a * a2 * a2 + turn_b * b2 * b2;
-        let across = mass + ta1 * a2 + tb1 * b2;
-        // Two points with the same levers answer alike: what is then left of the determinant is rounding.
-        let inverse = (k1 * k2 - across * across).max(k1 * k2 * V::all(SAME)).inverse();
-        Response { k: [k1, k2], across, inverse, alone: [k1.inverse(), k2.inverse()] }
-    }
-
-    /// The least x ≥ 0 with w = q + K x ≥ 0 and x·w = 0, exactly.
-    #[inline(always)]
-    pub(super) fn complement(&self, [q1, q2]: [V; 2]) -> [V; 2] {
-        let both1 = (self.across * q2 - self.k[1] * q1) * self.inverse;
-        let both2 = (self.across * q1 - self.k[0] * q2) * self.inverse;
-        let zero = V::zero();
-        let only1 = (-q1 * self.alone[0]).max(zero);
-        let only2 = (-q2 * self.alone[1]).max(zero);
-        let left2 = q2 + self.across * only1;
-        let one1 = left2.pick(only1, zero);
-        let one2 = left2.pick(zero, only2);
-        let both = both1.min(both2);
-        [both.pick(both1, one1), both.pick(both2, one2)]
-    }
-}
-
 /// The gaps at both points by now; far where the owner has slipped off the face.
 #[inline(always)]
 pub(super) fn gaps<V: Numbers>(block: &Block, a: &Lanes<V>, b: &Lanes<V>) -> [V; 2] {
@@ -222,6 +117,18 @@ pub(super) fn gaps<V: Numbers>(block: &Block, a: &Lanes<V>, b: &Lanes<V>) -> [V;
     [on_face.pick(first, far), on_face.pick(second, far)]
 }
 
+/// How much deeper points may still be than they are.
+#[inline(always)]
+fn room<V: Numbers>(block: &Block, a: &Lanes<V>, b: &Lanes<V>, band: f64) -> [V; 2] {
+    let (gap, least, band) = (gaps(block, a, b), of::<V>(&block.least), V::all(band));
+    [gap[0] - least[0] + band, gap[1] - least[1] + band]
+}
+
+#[inline(always)]
+fn is_deep<V: Numbers>(room: [V; 2]) -> bool {
+    (-room[0].min(room[1])).any()
+}
+
 /// Moves bodies apart where they are deeper in each other than they may be by the end of the step.
 #[inline(always)]
 fn part_overlap<V: Numbers>(
@@ -231,9 +138,8 @@ fn part_overlap<V: Numbers>(
     response: &Response<V>,
     how: Apart,
 ) {
-    let (gap, least, band) = (gaps(block, a, b), of::<V>(&block.least), V::all(how.band));
-    let room = [gap[0] - least[0] + band, gap[1] - least[1] + band];
-    if !(-room[0].min(room[1])).any() {
+    let room = room(block, a, b, how.band);
+    if !is_deep(room) {
         return;
     }
     let [x1, x2] = response.complement(room);
@@ -282,6 +188,17 @@ fn rub<V: Numbers>(block: &mut Block, arms: &Arms<V>, (a, b): (&mut Lanes<V>, &m
     give((a, b), MOTION, [nz * more, -(nx * more)], [turn_a * more, turn_b * more]);
 }
 
+/// How much faster each point parts than it is asked to.
+#[inline(always)]
+fn parts<V: Numbers>(block: &Block, arms: &Arms<V>, a: &Lanes<V>, b: &Lanes<V>) -> [V; 2] {
+    let [nx, nz] = normal::<V>(block);
+    let along_n = nx * (b[VX] - a[VX]) + nz * (b[VZ] - a[VZ]);
+    let u1 = along_n + arms.lever_b[0] * b[SPIN] - arms.lever_a[0] * a[SPIN];
+    let u2 = along_n + arms.lever_b[1] * b[SPIN] - arms.lever_a[1] * a[SPIN];
+    let asked = of::<V>(&block.asked);
+    [u1 - asked[0], u2 - asked[1]]
+}
+
 /// The pushes at both points.
 #[inline(always)]
 fn press<V: Numbers>(
@@ -289,15 +206,12 @@ fn press<V: Numbers>(
     arms: &Arms<V>,
     (a, b): (&mut Lanes<V>, &mut Lanes<V>),
     response: &Response<V>,
+    parts: [V; 2],
 ) {
-    let [nx, nz] = normal::<V>(block);
-    let along_n = nx * (b[VX] - a[VX]) + nz * (b[VZ] - a[VZ]);
-    let u1 = along_n + arms.lever_b[0] * b[SPIN] - arms.lever_a[0] * a[SPIN];
-    let u2 = along_n + arms.lever_b[1] * b[SPIN] - arms.lever_a[1] * a[SPIN];
-    let ([p1, p2], asked) = (of::<V>(&block.push), of::<V>(&block.asked));
+    let ([nx, nz], [p1, p2]) = (normal::<V>(block), of::<V>(&block.push));
     // Without the pushes so far.
-    let q1 = u1 - asked[0] - (response.k[0] * p1 + response.across * p2);
-    let q2 = u2 - asked[1] - (response.across * p1 + response.k[1] * p2);
+    let q1 = parts[0] - (response.k[0] * p1 + response.across * p2);
+    let q2 = parts[1] - (response.across * p1 + response.k[1] * p2);
     let [x1, x2] = response.complement([q1, q2]);
     let (d1, d2) = (x1 - p1, x2 - p2);
     x1.put(&mut block.push[0]);
