@@ -5,7 +5,8 @@
 //! in a heap, its touches mostly close in the list, is solved soon after each other: in one sweep pushes come far. Blocks of one
 //! colour after the other, each colour from all over the heap, left a tumbling heap a quarter deeper in itself.
 
-use super::rows::{IDLE, Rows};
+use super::open::{Open, Standing};
+use super::rows::{IDLE, Rows, TURN, X, Z};
 use super::touch::{FAR, Touch};
 use crate::area::Vec2;
 use crate::lanes::{Eight, LANES};
@@ -62,59 +63,14 @@ pub(super) struct Blocks {
     /// In which of the open blocks each row stands; and the rows of mobile bodies that stand in any block, each once.
     standing: Vec<Standing>,
     rows: Vec<u32>,
+    /// How far the bodies of those rows had come, in their order, when the sub-step began: x, z, turn.
+    stood: Vec<[f64; 3]>,
     /// How many lanes of the last block are used, if it is one of those that came later.
     more: Option<usize>,
 }
 
 /// The place of a touch that is not laid out.
 pub(super) const NOWHERE: (u32, u8) = (u32::MAX, 0);
-
-/// So many blocks are open at a time.
-const OPEN: u32 = 16;
-
-/// In which blocks a row stands: a bit for each that was open when it was last put into one, from the first of them on.
-#[derive(Clone, Copy, Debug)]
-struct Standing {
-    first: u32,
-    blocks: u32,
-}
-
-impl Standing {
-    const NOWHERE: Standing = Standing { first: 0, blocks: 0 };
-
-    /// The same with another block as the first; a row that stands in none from that on stands in one that is closed.
-    fn from(self, first: u32) -> u32 {
-        self.blocks.unbounded_shr(first - self.first)
-    }
-}
-
-/// The blocks that are open: the first, and a bit for each that is full.
-#[derive(Default)]
-struct Open {
-    first: u32,
-    full: u32,
-}
-
-impl Open {
-    /// Takes room beside rows that stand in those of the open blocks: in which of them. The first is closed where there is none.
-    fn take(&mut self, standing: u32) -> u32 {
-        let at = (self.full | standing).trailing_ones();
-        if at < OPEN {
-            return at;
-        }
-        self.first += 1;
-        self.full >>= 1;
-        OPEN - 1
-    }
-
-    /// One of them is full.
-    fn fill(&mut self, at: u32) {
-        self.full |= 1 << at;
-        let closed = self.full.trailing_ones();
-        self.first += closed;
-        self.full >>= closed;
-    }
-}
 
 impl Blocks {
     /// Lays the touches out, with the rows of their bodies; but for those that are `left` out, which are in order. Those that did not
@@ -136,9 +92,10 @@ impl Blocks {
         self.standing.clear();
         self.standing.resize(rows.rows.len(), Standing::NOWHERE);
         self.rows.clear();
+        self.stood.clear();
         self.place.resize(touches.len(), NOWHERE);
         for presses in [false, true] {
-            let mut open = Open { first: self.blocks.len() as u32, full: 0 };
+            let mut open = Open::from(self.blocks.len() as u32);
             let mut left = left.iter().peekable();
             for (k, (touch, &(a, b))) in touches.iter().zip(of_touch).enumerate() {
                 let is_left = left.next_if(|next| **next as usize == k).is_some();
@@ -159,10 +116,10 @@ impl Blocks {
         let at = open.take(standing);
         for row in mobile.into_iter().flatten() {
             let standing = &mut self.standing[row];
-            if standing.blocks == 0 {
+            if !standing.anywhere() {
                 self.rows.push(row as u32);
             }
-            *standing = Standing { first: open.first, blocks: standing.from(open.first) | 1 << at };
+            standing.put(open.first, at);
         }
         let block = open.first + at;
         if self.blocks.len() <= block as usize {
@@ -189,8 +146,9 @@ impl Blocks {
         self.standing.resize(rows.rows.len(), Standing::NOWHERE);
         for row in [a, b].into_iter().filter(|row| rows.mobile_of(*row).is_some()) {
             if !self.hold(row as usize) {
-                self.standing[row as usize].blocks = 1;
+                self.standing[row as usize].put(0, 0);
                 self.rows.push(row);
+                self.stood.push(rows.rows[row as usize].come_so_far());
             }
         }
         let open = self.more.filter(|lane| *lane < LANES && !self.blocks.last().is_some_and(|block| block.has(a, b)));
@@ -214,9 +172,23 @@ impl Blocks {
         &self.rows
     }
 
+    /// Remembers where the bodies are: pushes are about to be found, and some to be moved apart.
+    pub(super) fn note_places(&mut self, rows: &Rows) {
+        self.stood.clear();
+        self.stood.extend(self.rows.iter().map(|row| rows.rows[*row as usize].come_so_far()));
+    }
+
+    /// Puts them back where they were.
+    pub(super) fn put_back(&self, rows: &mut Rows) {
+        for (row, stood) in self.rows.iter().zip(&self.stood) {
+            let row = &mut rows.rows[*row as usize].0;
+            [row[X], row[Z], row[TURN]] = *stood;
+        }
+    }
+
     /// Whether a mobile body's row stands in any block.
     pub(super) fn hold(&self, row: usize) -> bool {
-        self.standing[row].blocks != 0
+        self.standing[row].anywhere()
     }
 
     /// The block and lane of a touch that is laid out.

@@ -21,9 +21,8 @@ const TWICE: f64 = 4.0;
 /// What a body in contact remembers over a sub-step.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Flier {
-    /// Its motion when the sub-step began: vx, vz, spin; and how far it had come: x, z, turn.
+    /// Its motion when the sub-step began: vx, vz, spin.
     start: [f64; 3],
-    stood: [f64; 3],
     /// Its motion at the end were there no contact.
     pub(super) free: [f64; 3],
     /// How far it would come: x, z, turn.
@@ -139,11 +138,10 @@ impl Fliers {
         }
     }
 
-    /// The motions of bodies on which no contact pushes, where they were before any was moved apart from another.
+    /// The motions of bodies on which no contact pushes.
     pub(super) fn let_go(&self, rows: &mut Rows) {
         for (row, flier) in rows.of_mobile_mut().iter_mut().zip(&self.fliers) {
             [row.0[VX], row.0[VZ], row.0[SPIN]] = flier.free;
-            [row.0[X], row.0[Z], row.0[TURN]] = flier.stood;
         }
     }
 
@@ -186,7 +184,6 @@ impl Fliers {
         let at = rows.first() + k;
         let (flier, row, spent) = (&mut self.fliers[k], &mut rows.rows[at].0, self.spent[at]);
         flier.start = [row[VX], row[VZ], row[SPIN]];
-        flier.stood = [row[X], row[Z], row[TURN]];
         let (v, omega) = (Vec2::new(row[VX], row[VZ]), row[SPIN]);
         match &self.coefficients {
             None => {

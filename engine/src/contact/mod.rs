@@ -32,6 +32,7 @@ mod loads;
 mod look;
 mod meeting;
 mod midway;
+mod open;
 mod pairs;
 mod part;
 #[cfg(test)]

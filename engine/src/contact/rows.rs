@@ -17,6 +17,11 @@ impl Row {
         Vec2::new(self.0[X], self.0[Z])
     }
 
+    /// The same, and how far it has turned: x, z, turn.
+    pub(super) fn come_so_far(&self) -> [f64; 3] {
+        [self.0[X], self.0[Z], self.0[TURN]]
+    }
+
     pub(super) fn motion(&self) -> Motion {
         Motion { v: Vec2::new(self.0[VX], self.0[VZ]), omega: self.0[SPIN] }
     }

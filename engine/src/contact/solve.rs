@@ -70,6 +70,7 @@ impl Contacts {
             self.turn_midway(h, flying::FORCEFUL * pulled);
         }
         self.fliers.set_out(&mut self.rows, &self.pulls, h);
+        self.blocks.note_places(&self.rows);
         let quiet = fastest <= QUIET * pulled;
         // Where nothing pulls, what counts is how fast things are.
         let scale = if pulled > 0.0 { pulled } else { fastest };
@@ -127,8 +128,9 @@ impl Contacts {
         }
     }
 
-    /// Nothing pushes any more.
+    /// Nothing pushes any more, and nothing has been moved apart yet.
     fn begin_afresh(&mut self) {
+        self.blocks.put_back(&mut self.rows);
         self.blocks.forget_pushes();
         self.fliers.let_go(&mut self.rows);
     }
