@@ -1,4 +1,4 @@
-//! Bodies that are in each other are moved apart; no velocity comes of it.
+//! Bodies that are in each other are moved apart; no velocity comes of it but what keeps angular momentum.
 //!
 //! The least displacements, weighted by mass, with which no point is deeper than it may be by the end of the step: the same problem as
 //! that of velocities, so the same sweeps solve it, with displacements in the place of velocities. Friction holds there too:
@@ -11,7 +11,7 @@ use super::blocks::Block;
 use super::rest::Effort;
 use super::rows::{INVERSE_MASS, INVERSE_MOMENT, Row, SPIN, TURN, VX, VZ, X, Z};
 use super::solve::PATIENCE;
-use super::sweep::{Apart, Part, gaps, gather, of};
+use super::sweep::{Part, Parting, gaps, gather, of};
 use crate::area::Vec2;
 use crate::bodies::Motion;
 use crate::frame::perp;
@@ -37,16 +37,16 @@ impl Contacts {
         if self.are_few() {
             self.part_to_the_end(world, excess);
         } else {
-            let apart = self.how_apart();
+            let parting = self.parting();
             let (rows, blocks) = (&mut self.rows.rows[..], &self.blocks.blocks[..]);
-            self.width.run(Part { rows, blocks, apart });
+            self.width.run(Part { rows, blocks, parting });
         }
         true
     }
 
     /// How bodies are moved apart among many touches.
-    pub(super) fn how_apart(&self) -> Apart {
-        Apart { band: self.band, keeps_turning: !self.falls }
+    pub(super) fn parting(&self) -> Parting {
+        Parting { band: self.band, keeps_turning: !self.falls }
     }
 
     fn part_to_the_end(&mut self, world: &mut World, excess: f64) {
@@ -59,49 +59,52 @@ impl Contacts {
         self.sweep_touches(world, SWEEPS);
         let most = (ROUNDS / (self.blocks.count as u64).pow(3)).min(u64::from(PATIENCE)) as u32;
         self.settle_for(world, Effort { enough: (GOOD * excess).max(self.band), most });
-        let Contacts { aside, blocks, rows, .. } = self;
-        for row in &mut rows.rows {
-            for (place, way) in [(X, VX), (Z, VZ), (TURN, SPIN)] {
-                row.0[place] += row.0[way];
-            }
+        self.mean.clear();
+        self.mean.extend(self.rows.rows.iter().map(|row| row.after(1.0)));
+        self.aside.exchange(&mut self.rows.rows, &mut self.blocks.blocks);
+        for touch in 0..self.touches.len() {
+            self.part_bodies(touch);
         }
-        aside.exchange(&mut rows.rows, &mut blocks.blocks);
-        for k in 0..self.touches.len() {
-            self.keep_turning(k);
+        for (row, moved) in self.rows.rows.iter_mut().zip(&self.mean) {
+            [row.0[X], row.0[Z], row.0[TURN]] = moved.come_so_far();
         }
     }
 
-    /// The bodies of a touch have been moved apart by the impulses that are laid aside, as if at those motions: two mobile ones keep
-    /// their angular momentum about each other, as they do among many touches ([`super::sweep`]).
-    fn keep_turning(&mut self, touch: usize) {
+    /// Moves the bodies of a touch apart by the impulses that are laid aside, after those of the touches before. Two mobile ones keep their angular momentum about each
+    /// other, as they do among many touches ([`super::sweep`]).
+    fn part_bodies(&mut self, touch: usize) {
         let Some((block, lane)) = self.blocks.lane(touch) else { return };
         let (at, _) = self.blocks.place[touch];
         let [p1, p2, along] = self.aside.pushes[at as usize].map(|moved| moved.0[lane]);
-        let (at_a, at_b) = (block.row_a[lane] as usize, block.row_b[lane] as usize);
-        let (a, b) = (&self.rows.rows[at_a].0, &self.rows.rows[at_b].0);
-        if (p1 + p2 == 0.0 && along == 0.0) || a[INVERSE_MASS].min(b[INVERSE_MASS]) == 0.0 {
+        if p1 + p2 == 0.0 && along == 0.0 {
             return;
         }
+        let rows = [block.row_a[lane] as usize, block.row_b[lane] as usize];
+        let [a, b] = rows.map(|row| &self.rows.rows[row].0);
         let n = Vec2::new(block.nx.0[lane], block.nz.0[lane]);
         let t = -perp(n);
         let moved = n * (p1 + p2) + t * along;
-        let slide = self.aside.motions[at_b].v - self.aside.motions[at_a].v;
-        let lost = moved.perp(&slide);
         let arms = Arms::in_lane(block, lane, a, b);
-        let after = arms.along_b - arms.along_a;
-        let before = after - (a[INVERSE_MASS] + b[INVERSE_MASS]) * (p1 + p2);
-        let turns = a[INVERSE_MOMENT] + b[INVERSE_MOMENT];
+        let before = arms.along_b - arms.along_a;
+        let after = before + (a[INVERSE_MASS] + b[INVERSE_MASS]) * (p1 + p2);
+        let both = a[INVERSE_MASS].min(b[INVERSE_MASS]) > 0.0;
+        let lost = if both { moved.perp(&Vec2::new(b[VX] - a[VX], b[VZ] - a[VZ])) } else { 0.0 };
+        let (turns_a, turns_b) = (a[INVERSE_MOMENT], b[INVERSE_MOMENT]);
         let (slower, turn) = if before.min(after) > 0.0 {
             (t * (lost / after), 0.0)
-        } else if turns > 0.0 {
-            (Vec2::zeros(), -lost * (a[INVERSE_MOMENT] * b[INVERSE_MOMENT]) / turns)
+        } else if lost != 0.0 && turns_a + turns_b > 0.0 {
+            // As far as it gives no energy.
+            let limit = -2.0 * (a[SPIN] * turns_b + b[SPIN] * turns_a) / (turns_a + turns_b);
+            let turn = -lost * (turns_a * turns_b) / (turns_a + turns_b);
+            (Vec2::zeros(), turn.clamp(limit.min(0.0), limit.max(0.0)))
         } else {
-            return;
+            (Vec2::zeros(), 0.0)
         };
-        for (at, sign) in [(at_a, -1.0), (at_b, 1.0)] {
-            let row = &mut self.rows.rows[at].0;
-            row[VX] += sign * row[INVERSE_MASS] * slower.x;
-            row[VZ] += sign * row[INVERSE_MASS] * slower.y;
+        for (row, sign) in rows.into_iter().zip([-1.0, 1.0]) {
+            let row = &mut self.rows.rows[row].0;
+            let mass = sign * row[INVERSE_MASS];
+            (row[X], row[Z]) = (row[X] + mass * moved.x, row[Z] + mass * moved.y);
+            (row[VX], row[VZ]) = (row[VX] + mass * slower.x, row[VZ] + mass * slower.y);
             row[SPIN] += turn;
         }
     }

@@ -212,19 +212,21 @@ impl Contacts {
 
     /// A sweep over the blocks from that one on.
     fn sweep(&mut self, from: usize, back: bool) {
-        let (parts, apart) = (!self.are_few(), self.how_apart());
+        let (parts, parting) = (!self.are_few(), self.parting());
         let idles = self.idles(self.blocks.count);
         let Blocks { blocks, turned, .. } = &mut self.blocks;
         let turned = turned.get(from..).unwrap_or_default();
         let (rows, blocks) = (&mut self.rows.rows[..], &mut blocks[from..]);
         match (self.plan.friction, parts) {
-            (true, true) => self.width.run(Sweep::<true, true, false> { rows, blocks, turned, apart, idles, back }),
+            (true, true) => self.width.run(Sweep::<true, true, false> { rows, blocks, turned, parting, idles, back }),
             (true, false) if turned.is_empty() => {
-                self.width.run(Sweep::<true, false, false> { rows, blocks, turned, apart, idles, back });
+                self.width.run(Sweep::<true, false, false> { rows, blocks, turned, parting, idles, back });
             }
-            (true, false) => self.width.run(Sweep::<true, false, true> { rows, blocks, turned, apart, idles, back }),
-            (false, true) => self.width.run(Sweep::<false, true, false> { rows, blocks, turned, apart, idles, back }),
-            (false, false) => self.width.run(Sweep::<false, false, false> { rows, blocks, turned, apart, idles, back }),
+            (true, false) => self.width.run(Sweep::<true, false, true> { rows, blocks, turned, parting, idles, back }),
+            (false, true) => self.width.run(Sweep::<false, true, false> { rows, blocks, turned, parting, idles, back }),
+            (false, false) => {
+                self.width.run(Sweep::<false, false, false> { rows, blocks, turned, parting, idles, back });
+            }
         }
     }
 }

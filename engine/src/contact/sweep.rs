@@ -1,9 +1,10 @@
 //! A sweep over all touches: each is solved exactly, with the motions its bodies have by then (block Gauss–Seidel).
 //!
-//! A touch has two points and one friction between them. Where points are in each other, first the bodies are moved apart, by
-//! the least displacements weighted by mass, unless that is done to the end by itself ([`super::part`]); no velocity comes of it. Then friction is clamped to the cone of the pushes so far,
-//! and the pushes are solved: u ≥ what the point asks ([`super::look`]), push ≥ 0, and one of the two exact. That 2×2
-//! complementarity problem is solved in closed form, all cases side by side and the right one picked.
+//! A touch has two points and one friction between them. The pushes are solved: u ≥ what the point asks ([`super::look`]), push ≥ 0, and
+//! one of the two exact; that 2×2 complementarity problem has a closed form, all cases side by side and the right one picked. Then
+//! friction is clamped to their cone. Last, where points are in each other, the bodies are moved apart by the least displacements
+//! weighted by mass, unless that is done to the end by itself ([`super::part`]); no velocity comes of it but what keeps angular
+//! momentum.
 
 use super::arms::{Arms, Lanes, Response};
 use super::blocks::{Block, Turned};
@@ -17,7 +18,7 @@ pub(super) struct Sweep<'a, const FRICTION: bool, const PART: bool, const TURNED
     pub(super) blocks: &'a mut [Block],
     /// As many, where touches are turned.
     pub(super) turned: &'a [Turned],
-    pub(super) apart: Apart,
+    pub(super) parting: Parting,
     /// Whether many touches do nothing: they are not taken further than to see that.
     pub(super) idles: bool,
     /// From the last touch to the first: sweeps to and fro favour neither end of a pile.
@@ -51,7 +52,7 @@ impl<const FRICTION: bool, const PART: bool, const TURNED: bool> Sweep<'_, FRICT
         if self.idles {
             let pushes = V::of(&block.push[0].0) + V::of(&block.push[1].0) + V::of(&block.grip.0).abs();
             let idle = !(-parts[0].min(parts[1])).max(pushes).any();
-            if idle && !(PART && is_deep(room(block, &a, &b, self.apart.band))) {
+            if idle && !(PART && is_deep(room(block, &a, &b, self.parting.band))) {
                 return;
             }
         }
@@ -62,7 +63,7 @@ impl<const FRICTION: bool, const PART: bool, const TURNED: bool> Sweep<'_, FRICT
             rub(block, &arms, (&mut a, &mut b), slips);
         }
         if PART {
-            part_overlap(block, &arms, (&mut a, &mut b), &response, self.apart);
+            part_overlap(block, &arms, (&mut a, &mut b), &response, self.parting);
         }
         scatter(self.rows, &block.row_a, a);
         scatter(self.rows, &block.row_b, b);
@@ -71,7 +72,7 @@ impl<const FRICTION: bool, const PART: bool, const TURNED: bool> Sweep<'_, FRICT
 
 /// How bodies that are in each other are moved apart.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Apart {
+pub(super) struct Parting {
     /// Gaps and depths up to this are none \[m\].
     pub(super) band: f64,
     /// Whether two mobile ones keep their angular momentum about each other to the last digit: where gravity turns everything about
@@ -83,7 +84,7 @@ pub(super) struct Apart {
 pub(super) struct Part<'a> {
     pub(super) rows: &'a mut [Row],
     pub(super) blocks: &'a [Block],
-    pub(super) apart: Apart,
+    pub(super) parting: Parting,
 }
 
 impl Work for Part<'_> {
@@ -95,7 +96,7 @@ impl Work for Part<'_> {
             let (mut a, mut b) = (gather::<V>(self.rows, &block.row_a), gather::<V>(self.rows, &block.row_b));
             let arms = Arms::of(block, &a, &b);
             let response = Response::of(&arms, &a, &b);
-            part_overlap(block, &arms, (&mut a, &mut b), &response, self.apart);
+            part_overlap(block, &arms, (&mut a, &mut b), &response, self.parting);
             scatter(self.rows, &block.row_a, a);
             scatter(self.rows, &block.row_b, b);
         }
@@ -136,7 +137,7 @@ fn part_overlap<V: Numbers>(
     arms: &Arms<V>,
     (a, b): (&mut Lanes<V>, &mut Lanes<V>),
     response: &Response<V>,
-    how: Apart,
+    how: Parting,
 ) {
     let room = room(block, a, b, how.band);
     if !is_deep(room) {

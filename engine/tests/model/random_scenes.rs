@@ -175,6 +175,6 @@ const PINNED: [&str; 10] = [
     "3b2136f5bb27ad1f",
     "3db1f406224e9862",
     "06a15a67339e7727",
-    "14a88deca2a18bac",
+    "8dfed2d2de0cd376",
     "d8053e999405d404",
 ];
