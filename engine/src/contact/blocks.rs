@@ -175,6 +175,7 @@ impl Blocks {
     /// Remembers where the bodies are: pushes are about to be found, and some to be moved apart.
     pub(super) fn note_places(&mut self, rows: &Rows) {
         self.stood.clear();
+        self.stood.reserve_exact(self.rows.len());
         self.stood.extend(self.rows.iter().map(|row| rows.rows[*row as usize].come_so_far()));
     }
 

@@ -21,8 +21,8 @@ const TWICE: f64 = 4.0;
 /// What a body in contact remembers over a sub-step.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Flier {
-    /// Its motion when the sub-step began: vx, vz, spin.
-    start: [f64; 3],
+    /// Its velocity when the sub-step began: vx, vz.
+    start: [f64; 2],
     /// Its motion at the end were there no contact.
     pub(super) free: [f64; 3],
     /// How far it would come: x, z, turn.
@@ -183,12 +183,12 @@ impl Fliers {
     fn set_out_one(&mut self, k: usize, rows: &mut Rows, pulls: &Pulls, h: f64) {
         let at = rows.first() + k;
         let (flier, row, spent) = (&mut self.fliers[k], &mut rows.rows[at].0, self.spent[at]);
-        flier.start = [row[VX], row[VZ], row[SPIN]];
+        flier.start = [row[VX], row[VZ]];
         let (v, omega) = (Vec2::new(row[VX], row[VZ]), row[SPIN]);
         match &self.coefficients {
             None => {
-                flier.free = flier.start;
-                flier.way = flier.start.map(|v| v * (h - spent));
+                flier.free = [row[VX], row[VZ], row[SPIN]];
+                flier.way = flier.free.map(|v| v * (h - spent));
             }
             Some((linear, angular)) => {
                 let pull = pulls.on_mobile(rows.mobile[k] as usize);
