@@ -70,8 +70,8 @@ impl Contacts {
         }
     }
 
-    /// Moves the bodies of a touch apart by the impulses that are laid aside, after those of the touches before. Two mobile ones keep their angular momentum about each
-    /// other, as they do among many touches ([`super::sweep`]).
+    /// Moves the bodies of a touch apart by the impulses that are laid aside, after those of the touches before. Two mobile ones keep
+    /// their angular momentum about each other, as they do among many touches ([`super::sweep`]).
     fn part_bodies(&mut self, touch: usize) {
         let Some((block, lane)) = self.blocks.lane(touch) else { return };
         let (at, _) = self.blocks.place[touch];
