@@ -4,7 +4,7 @@
 //! what all that computes with them is written for. Every lane sees the same operations in the same order at any width, and
 //! nothing is fused or reordered, so the bits are the same everywhere.
 //!
-//! A yes or no in every lane is a number too: 1 or −1, for [`Wide::pick`]; `a.min(b)` is then a and b, `a.max(b)` a or b, `−a` not a.
+//! A yes or no in every lane is a number too: 1 or −1, for [`Numbers::pick`]; `a.min(b)` is then a and b, `a.max(b)` a or b, `−a` not a.
 
 // Lanes by their index: loops of this form become vector instructions.
 #![allow(clippy::needless_range_loop)]
@@ -35,8 +35,8 @@ pub(crate) trait Numbers:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
 {
     /// Which of eight lanes they are: the first of them, and how many.
-    const FIRST: usize;
-    const COUNT: usize;
+    const FIRST: usize = 0;
+    const COUNT: usize = LANES;
 
     /// Their lanes of eight.
     fn of(numbers: &[f64; LANES]) -> Self;
@@ -45,7 +45,10 @@ pub(crate) trait Numbers:
     fn eight(self) -> Eight;
 
     /// Puts them into their lanes of eight.
-    fn put(self, eight: &mut Eight);
+    #[inline(always)]
+    fn put(self, eight: &mut Eight) {
+        *eight = self.eight();
+    }
 
     /// The same number in every lane.
     fn all(value: f64) -> Self;
@@ -148,9 +151,6 @@ impl Neg for Eight {
 /// Plain arrays and loops of a fixed length, which the compiler turns into such vector instructions as every processor of the
 /// platform has.
 impl Numbers for Eight {
-    const FIRST: usize = 0;
-    const COUNT: usize = LANES;
-
     #[inline(always)]
     fn of(numbers: &[f64; LANES]) -> Eight {
         Eight(*numbers)
@@ -159,11 +159,6 @@ impl Numbers for Eight {
     #[inline(always)]
     fn eight(self) -> Eight {
         self
-    }
-
-    #[inline(always)]
-    fn put(self, eight: &mut Eight) {
-        *eight = self;
     }
 
     #[inline(always)]

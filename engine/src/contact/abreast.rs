@@ -18,7 +18,7 @@ use crate::lanes::{LANES, Numbers};
 /// Two numbers along x and z, in every lane.
 pub(super) type Pair<V> = [V; 2];
 
-/// A yes or no in every lane: 1 or −1, for [`Wide::pick`].
+/// A yes or no in every lane: 1 or −1, for [`Numbers::pick`].
 pub(super) type Flag<V> = V;
 
 /// The rectangles of some pairs on one side, and their bodies.
@@ -28,7 +28,7 @@ pub(super) struct Side<V> {
     pub(super) axis: Pair<V>,
     /// Half sizes, and the middle in the body's frame.
     pub(super) half: Pair<V>,
-    centre: Pair<V>,
+    pub(super) centre: Pair<V>,
     /// From x_min, z_min to x_max, z_max.
     pub(super) low: Pair<V>,
     pub(super) high: Pair<V>,

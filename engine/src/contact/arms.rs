@@ -36,14 +36,18 @@ impl<V: Numbers> Arms<V> {
 
     #[inline(always)]
     pub(super) fn of(block: &Block, a: &Lanes<V>, b: &Lanes<V>) -> Arms<V> {
-        Arms::at_first(block).moved(normal::<V>(block), [b[X] - a[X], b[Z] - a[Z]], V::all(0.5))
+        Arms::slipped(block, a, b, V::all(0.5))
     }
 
     /// The same between two mobile bodies; on a fixed one, which takes any angular momentum, those as the step began.
     #[inline(always)]
     pub(super) fn between_mobile(block: &Block, a: &Lanes<V>, b: &Lanes<V>) -> Arms<V> {
         let both = V::zero().less(a[INVERSE_MASS].min(b[INVERSE_MASS]));
-        let half = both.pick(V::all(0.5), V::zero());
+        Arms::slipped(block, a, b, both.pick(V::all(0.5), V::zero()))
+    }
+
+    #[inline(always)]
+    fn slipped(block: &Block, a: &Lanes<V>, b: &Lanes<V>, half: V) -> Arms<V> {
         Arms::at_first(block).moved(normal::<V>(block), [b[X] - a[X], b[Z] - a[Z]], half)
     }
 }

@@ -94,7 +94,8 @@ impl Blocks {
         self.rows.clear();
         self.stood.clear();
         self.place.resize(touches.len(), NOWHERE);
-        for presses in [false, true] {
+        let passes: &[bool] = if sorts { &[false, true] } else { &[true] };
+        for &presses in passes {
             let mut open = Open::from(self.blocks.len() as u32);
             let mut left = left.iter().peekable();
             for (k, (touch, &(a, b))) in touches.iter().zip(of_touch).enumerate() {

@@ -11,7 +11,7 @@
 use super::arms::{Arms, Lanes, Response};
 use super::blocks::{Block, Blocks, Turned};
 use super::rows::{INVERSE_MASS, INVERSE_MOMENT, Row, Rows, SPIN, TURN, VX, VZ};
-use super::sweep::{gather, normal, of, push};
+use super::sweep::{gather, normal, parts, push};
 use crate::lanes::{Eight, LANES, Wide};
 use crate::width::{Width, Work};
 
@@ -250,14 +250,11 @@ fn improve<V: Wide>(
     from: &[V; 3],
     slips: Option<V>,
 ) -> ([V; 3], [V; 3]) {
-    let (ux, uz) = (b[VX] - a[VX], b[VZ] - a[VZ]);
-    let ([nx, nz], asked) = (normal::<V>(block), of::<V>(&block.asked));
-    let Arms { lever_a, lever_b, along_a, along_b } = *arms;
-    let along_n = nx * ux + nz * uz;
-    let u1 = along_n + lever_b[0] * b[SPIN] - lever_a[0] * a[SPIN];
-    let u2 = along_n + lever_b[1] * b[SPIN] - lever_a[1] * a[SPIN];
-    let q1 = u1 - asked[0] - (shared.k[0] * from[0] + shared.across * from[1]);
-    let q2 = u2 - asked[1] - (shared.across * from[0] + shared.k[1] * from[1]);
+    let ((ux, uz), [nx, nz]) = ((b[VX] - a[VX], b[VZ] - a[VZ]), normal::<V>(block));
+    let Arms { along_a, along_b, .. } = *arms;
+    let parts = parts(block, arms, a, b);
+    let q1 = parts[0] - (shared.k[0] * from[0] + shared.across * from[1]);
+    let q2 = parts[1] - (shared.across * from[0] + shared.k[1] * from[1]);
     let [x1, x2] = shared.complement([q1, q2]);
     let k = mass_a + mass_b + moment_a * along_a * along_a + moment_b * along_b * along_b;
     let slip = nz * ux - nx * uz + along_b * b[SPIN] - along_a * a[SPIN];

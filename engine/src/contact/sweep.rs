@@ -191,7 +191,7 @@ fn rub<V: Numbers>(block: &mut Block, arms: &Arms<V>, (a, b): (&mut Lanes<V>, &m
 
 /// How much faster each point parts than it is asked to.
 #[inline(always)]
-fn parts<V: Numbers>(block: &Block, arms: &Arms<V>, a: &Lanes<V>, b: &Lanes<V>) -> [V; 2] {
+pub(super) fn parts<V: Numbers>(block: &Block, arms: &Arms<V>, a: &Lanes<V>, b: &Lanes<V>) -> [V; 2] {
     let [nx, nz] = normal::<V>(block);
     let along_n = nx * (b[VX] - a[VX]) + nz * (b[VZ] - a[VZ]);
     let u1 = along_n + arms.lever_b[0] * b[SPIN] - arms.lever_a[0] * a[SPIN];

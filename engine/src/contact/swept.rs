@@ -1,5 +1,6 @@
 //! What every rectangle sweeps over a step, eight at a time.
 
+use super::abreast::{Side, outward};
 use super::acting::{Acting, Moving};
 use crate::bodies::Bodies;
 use crate::broad_phase::met::{Bounds, Owner};
@@ -44,11 +45,7 @@ impl Work for SweepAll<'_> {
 
 /// Eight rectangles and their bodies' motions.
 struct Lanes<V> {
-    o: [V; 2],
-    cos: V,
-    sin: V,
-    /// x_min, x_max, z_min, z_max.
-    rect: [V; 4],
+    side: Side<V>,
     moving: Moving<V>,
 }
 
@@ -56,36 +53,18 @@ impl<V: Wide> Lanes<V> {
     #[inline(always)]
     fn load(bodies: &Bodies, acting: Acting, owners: &[Owner], first: usize) -> Lanes<V> {
         let at = |k: usize| (first + k).min(owners.len() - 1);
-        let [x, z, cos, sin] = V::columns(|k| bodies.frame[owners[at(k)].body()].row());
-        let rect = V::columns(|k| bodies.rects[at(k)].row());
-        Lanes { o: [x, z], cos, sin, rect, moving: acting.moving(bodies, |k| owners[at(k)]) }
-    }
-
-    #[inline(always)]
-    fn half(&self) -> [V; 2] {
-        let half = V::all(0.5);
-        let [x_min, x_max, z_min, z_max] = self.rect;
-        [half * (x_max - x_min), half * (z_max - z_min)]
-    }
-
-    /// The middle of each rectangle, from its body's centre, along the world's axes.
-    #[inline(always)]
-    fn centre(&self) -> [V; 2] {
-        let half = V::all(0.5);
-        let [x_min, x_max, z_min, z_max] = self.rect;
-        let (x, z) = (half * (x_min + x_max), half * (z_min + z_max));
-        [self.cos * x - self.sin * z, self.sin * x + self.cos * z]
+        Lanes { side: Side::of(bodies, owners, at), moving: acting.moving(bodies, |k| owners[at(k)]) }
     }
 
     /// The same as [`crate::broad_phase::bounds::sweep`] with room around, to the bit.
     #[inline(always)]
     fn bounds(&self, dt: f64) -> [V; 4] {
         let (time, half) = (V::all(dt), V::all(0.5));
-        let ([hx, hz], centre) = (self.half(), self.centre());
-        let (cos, sin) = (self.cos.abs(), self.sin.abs());
+        let Side { o, axis, half: [hx, hz], low, high, .. } = self.side;
+        let centre = outward(axis, self.side.centre);
+        let (cos, sin) = (axis[0].abs(), axis[1].abs());
         let reach = [cos * hx + sin * hz, sin * hx + cos * hz];
-        let [x_min, x_max, z_min, z_max] = self.rect;
-        let (x, z) = (x_min.abs().max(x_max.abs()), z_min.abs().max(z_max.abs()));
+        let (x, z) = (low[0].abs().max(high[0].abs()), low[1].abs().max(high[1].abs()));
         let radius = (x * x + z * z).root();
         let turned = (self.moving.omega.abs() + half * self.moving.angular.abs() * time) * time * radius;
         let [ax, az] = self.moving.acceleration;
@@ -98,8 +77,8 @@ impl<V: Wide> Lanes<V> {
             let low = straight.pick(low, (low - turned).max(-radius));
             let high = straight.pick(high, (high + turned).min(radius));
             let way = self.moving.v[k] * time;
-            least[k] = self.o[k] + low + way.min(V::zero()) - stray - room;
-            greatest[k] = self.o[k] + high + way.max(V::zero()) + stray + room;
+            least[k] = o[k] + low + way.min(V::zero()) - stray - room;
+            greatest[k] = o[k] + high + way.max(V::zero()) + stray + room;
         }
         [least[0], least[1], greatest[0], greatest[1]]
     }

@@ -54,9 +54,6 @@ impl Eights {
 }
 
 impl Numbers for Eights {
-    const FIRST: usize = 0;
-    const COUNT: usize = LANES;
-
     #[inline(always)]
     fn of(numbers: &[f64; LANES]) -> Eights {
         Eights(unsafe { _mm512_loadu_pd(numbers.as_ptr()) })
@@ -67,11 +64,6 @@ impl Numbers for Eights {
         let mut eight = Eight::ZERO;
         unsafe { _mm512_storeu_pd(eight.0.as_mut_ptr(), self.0) };
         eight
-    }
-
-    #[inline(always)]
-    fn put(self, eight: &mut Eight) {
-        *eight = self.eight();
     }
 
     #[inline(always)]

@@ -187,9 +187,6 @@ impl<const HALF: usize> Numbers for Four<HALF> {
 }
 
 impl Numbers for Fours {
-    const FIRST: usize = 0;
-    const COUNT: usize = LANES;
-
     #[inline(always)]
     fn of(numbers: &[f64; LANES]) -> Fours {
         let [low, high] = halves(numbers);
@@ -203,11 +200,6 @@ impl Numbers for Fours {
         self.0.store(&mut halves[0]);
         self.1.store(&mut halves[1]);
         eight
-    }
-
-    #[inline(always)]
-    fn put(self, eight: &mut Eight) {
-        *eight = self.eight();
     }
 
     #[inline(always)]
