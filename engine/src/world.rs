@@ -148,7 +148,9 @@ impl World {
 
     /// Lets an iteration be shared by up to so many threads, 64 at most; 0 counts as 1. Results have the same bits at any number.
     pub fn set_threads(&mut self, threads: usize) {
-        self.threads = Threads::new(threads);
+        if threads.max(1) != self.threads.count() {
+            self.threads = Threads::new(threads);
+        }
     }
 
     /// Counted work so far.

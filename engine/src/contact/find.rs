@@ -28,7 +28,7 @@ impl Contacts {
         core::mem::swap(&mut self.touches, &mut self.before);
         self.touches.clear();
         let acting = Acting::new(&self.pulls);
-        self.search.pairs((bodies, acting, dt), plan.broad_phase, (self.width, *threads), work);
+        self.search.pairs((bodies, acting, dt), plan.broad_phase, (self.width, threads), work);
         let earlier = |body: usize| frame_before(bodies, plan.flight, plan.time_step, body);
         let Contacts { search, touches, before, apart, shares, width, found, .. } = self;
         let apart = apart.begin();
@@ -44,7 +44,7 @@ impl Contacts {
                 }
             })
             .collect();
-        share(tasks, touches, apart, shares);
+        share(threads, tasks, touches, apart, shares);
         self.found = self.touches.len();
         work.pairs_listed += self.touches.len() as u64;
     }
@@ -54,8 +54,13 @@ impl Contacts {
 pub(super) type Found = (Vec<Touch>, Vec<(u32, u32)>);
 
 /// The first task finds what it finds right into the lists, the others into lists of their own, which are put behind in order.
-fn share<F>(tasks: Vec<F>, touches: &mut Vec<Touch>, apart: &mut Vec<(u32, u32)>, more: &mut Vec<Found>)
-where
+fn share<F>(
+    threads: &Threads,
+    tasks: Vec<F>,
+    touches: &mut Vec<Touch>,
+    apart: &mut Vec<(u32, u32)>,
+    more: &mut Vec<Found>,
+) where
     F: FnOnce(&mut Vec<Touch>, &mut Vec<(u32, u32)>) + Send,
 {
     more.resize_with(tasks.len().saturating_sub(1), Found::default);
@@ -66,7 +71,7 @@ where
     });
     let lists = core::iter::once((&mut *touches, &mut *apart)).chain(own);
     let tasks = tasks.into_iter().zip(lists).map(|(task, (touches, apart))| move || task(touches, apart));
-    Threads::share(tasks.collect());
+    threads.share(tasks.collect());
     for (more_touches, more_apart) in more {
         touches.extend_from_slice(more_touches);
         apart.extend_from_slice(more_apart);

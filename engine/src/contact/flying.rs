@@ -10,6 +10,7 @@ use crate::flight::{Path, Pull, turned};
 use crate::forces::Flight;
 use crate::frame::Frame;
 use crate::lanes::LANES;
+use crate::threads::{PER_THREAD, Threads};
 
 /// A change of motion within a sub-step no greater than this many times what gravity would do is a force's, and acts all
 /// along; a greater one is an impact's, and acts from the start.
@@ -44,12 +45,45 @@ impl Flier {
         [row[VX] - self.free[0], row[VZ] - self.free[1], row[SPIN] - self.free[2]]
     }
 
+    /// A sub-step begins: gravity, drag and pushes act on the body of that row, which has spent some of it in impacts.
+    #[inline]
+    fn set_out(&mut self, row: &mut [f64; LANES], body: u32, spent: f64, setting: &Setting) {
+        self.start = [row[VX], row[VZ]];
+        let (v, omega, left) = (Vec2::new(row[VX], row[VZ]), row[SPIN], setting.h - spent);
+        match setting.coefficients {
+            None => {
+                self.free = [row[VX], row[VZ], row[SPIN]];
+                self.way = self.free.map(|v| v * left);
+            }
+            Some((linear, angular)) => {
+                let pull = setting.pulls.on_mobile(body as usize);
+                let (linear, angular) = if spent == 0.0 {
+                    (*linear, *angular)
+                } else {
+                    (Flight::new(pull.drag.0, left), Flight::new(pull.drag.1, left))
+                };
+                let after = v * linear.keep + pull.a * linear.reach;
+                let way = v * linear.reach + pull.a * linear.fall;
+                self.free = [after.x, after.y, omega * angular.keep + pull.alpha * angular.reach];
+                self.way = [way.x, way.y, omega * angular.reach + pull.alpha * angular.fall];
+            }
+        }
+        [row[VX], row[VZ], row[SPIN]] = self.free;
+    }
+
     /// How far it goes in what is left of the sub-step: x, z, turn.
     pub(super) fn goes(&self, row: &[f64; LANES], left: f64, by_force: bool) -> [f64; 3] {
         let share = if by_force { 0.5 * left } else { left };
         let changed = self.changed(row);
         core::array::from_fn(|k| self.way[k] + share * changed[k])
     }
+}
+
+/// What acts on bodies over a whole sub-step of length h \[s\]; nothing where there are no coefficients.
+struct Setting<'a> {
+    pulls: &'a Pulls,
+    coefficients: &'a Option<(Flight, Flight)>,
+    h: f64,
 }
 
 /// All bodies in contact, in the order of their rows.
@@ -130,12 +164,15 @@ impl Fliers {
     }
 
     /// All mobile bodies stop, and stay where they are through the time.
-    pub(super) fn stand(&mut self, rows: &mut Rows, time: f64) {
-        for (row, flier) in rows.of_mobile_mut().iter_mut().zip(&mut self.fliers) {
-            flier.carried = flier.changed(&row.0);
-            row.set_motion(Motion::default());
-            flier.way = flier.changed(&row.0).map(|changed| -(0.5 * time) * changed);
-        }
+    pub(super) fn stand(&mut self, rows: &mut Rows, time: f64, threads: &Threads) {
+        let parts = (&mut self.fliers[..], rows.of_mobile_mut());
+        threads.each(parts, (1, PER_THREAD), |_, (fliers, rows)| {
+            for (flier, row) in fliers.iter_mut().zip(rows) {
+                flier.carried = flier.changed(&row.0);
+                row.set_motion(Motion::default());
+                flier.way = flier.changed(&row.0).map(|changed| -(0.5 * time) * changed);
+            }
+        });
     }
 
     /// The motions of bodies on which no contact pushes.
@@ -173,37 +210,15 @@ impl Fliers {
     }
 
     /// A sub-step begins: gravity, drag and pushes act.
-    pub(super) fn set_out(&mut self, rows: &mut Rows, pulls: &Pulls, h: f64) {
-        for k in 0..self.fliers.len() {
-            self.set_out_one(k, rows, pulls, h);
-        }
-    }
-
-    #[inline]
-    fn set_out_one(&mut self, k: usize, rows: &mut Rows, pulls: &Pulls, h: f64) {
-        let at = rows.first() + k;
-        let (flier, row, spent) = (&mut self.fliers[k], &mut rows.rows[at].0, self.spent[at]);
-        flier.start = [row[VX], row[VZ]];
-        let (v, omega) = (Vec2::new(row[VX], row[VZ]), row[SPIN]);
-        match &self.coefficients {
-            None => {
-                flier.free = [row[VX], row[VZ], row[SPIN]];
-                flier.way = flier.free.map(|v| v * (h - spent));
+    pub(super) fn set_out(&mut self, rows: &mut Rows, pulls: &Pulls, h: f64, threads: &Threads) {
+        let Fliers { fliers, spent, coefficients, .. } = self;
+        let (setting, spent) = (Setting { pulls, coefficients, h }, &spent[rows.first()..]);
+        let (mobile, rows) = rows.mobile_and_rows();
+        threads.each((&mut fliers[..], rows), (1, PER_THREAD), |from, (fliers, rows)| {
+            for ((flier, Row(row)), k) in fliers.iter_mut().zip(rows).zip(from..) {
+                flier.set_out(row, mobile[k], spent[k], &setting);
             }
-            Some((linear, angular)) => {
-                let pull = pulls.on_mobile(rows.mobile[k] as usize);
-                let (linear, angular) = if spent == 0.0 {
-                    (*linear, *angular)
-                } else {
-                    (Flight::new(pull.drag.0, h - spent), Flight::new(pull.drag.1, h - spent))
-                };
-                let after = v * linear.keep + pull.a * linear.reach;
-                let way = v * linear.reach + pull.a * linear.fall;
-                flier.free = [after.x, after.y, omega * angular.keep + pull.alpha * angular.reach];
-                flier.way = [way.x, way.y, omega * angular.reach + pull.alpha * angular.fall];
-            }
-        }
-        (row[VX], row[VZ], row[SPIN]) = (flier.free[0], flier.free[1], flier.free[2]);
+        });
     }
 
     /// A body has been given a row, the last; in the midst of a sub-step where that has set out already.
@@ -212,23 +227,27 @@ impl Fliers {
         self.spent.push(0.0);
         self.stirred.push(0);
         if let Some((pulls, h)) = under_way {
-            self.set_out_one(self.fliers.len() - 1, rows, pulls, h);
+            let Fliers { fliers, coefficients, .. } = self;
+            let (Some(flier), Some(body)) = (fliers.last_mut(), rows.mobile.last()) else { return };
+            let Some(Row(row)) = rows.rows.last_mut() else { return };
+            flier.set_out(row, *body, 0.0, &Setting { pulls, coefficients, h });
         }
     }
 
     /// The sub-step ends: bodies have come where their motions took them.
-    pub(super) fn arrive(&mut self, rows: &mut Rows, pulls: &Pulls, h: f64) {
-        let first = rows.first();
-        for (k, flier) in self.fliers.iter_mut().enumerate() {
-            let row = &mut rows.rows[first + k].0;
-            let left = h - self.spent[first + k];
-            let by_force = flier.is_forced(row, &pulls.on_mobile(rows.mobile[k] as usize), h);
-            let goes = flier.goes(row, left, by_force);
-            flier.carried = flier.changed(row);
-            for (k, d) in [X, Z, TURN].into_iter().enumerate() {
-                row[d] += goes[k];
+    pub(super) fn arrive(&mut self, rows: &mut Rows, pulls: &Pulls, h: f64, threads: &Threads) {
+        let (fliers, spent) = (&mut self.fliers[..], &self.spent[rows.first()..]);
+        let (mobile, moving) = rows.mobile_and_rows();
+        threads.each((fliers, moving), (1, PER_THREAD), |from, (fliers, rows)| {
+            for ((flier, Row(row)), k) in fliers.iter_mut().zip(rows).zip(from..) {
+                let by_force = flier.is_forced(row, &pulls.on_mobile(mobile[k] as usize), h);
+                let goes = flier.goes(row, h - spent[k], by_force);
+                flier.carried = flier.changed(row);
+                for (d, goes) in [X, Z, TURN].into_iter().zip(goes) {
+                    row[d] += goes;
+                }
             }
-        }
+        });
         for row in rows.of_fixed_mut() {
             *row = row.after(h);
         }

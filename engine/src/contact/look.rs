@@ -68,7 +68,7 @@ impl Work for Warm<'_> {
     fn run<V: Wide>(self) {
         for block in self.blocks {
             let [first, second] = of::<V>(&block.push);
-            push::<V>(block, |a, b| Arms::of(block, a, b), self.rows, [first, second, V::of(&block.grip.0)]);
+            push::<V>(block, self.rows, [first, second, V::of(&block.grip.0)]);
         }
     }
 }

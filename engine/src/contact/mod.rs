@@ -41,6 +41,7 @@ mod points;
 mod pulls;
 mod remembered;
 mod rest;
+mod round;
 mod rows;
 mod search;
 mod settle;
@@ -212,7 +213,9 @@ impl World {
     pub(crate) fn begin_contacts(&mut self, contacts: &mut Contacts) {
         let whole = self.plan.time_step;
         contacts.untold.clear();
-        contacts.touches.iter_mut().for_each(|touch| touch.met = false);
+        if !contacts.stood {
+            contacts.touches.iter_mut().for_each(|touch| touch.met = false);
+        }
         contacts.pull(self);
         let parts = if self.stand(contacts) { 0 } else { contacts.parts() };
         for part in 1..=parts {
@@ -350,11 +353,11 @@ impl Contacts {
         self.strike_pairs(world, h);
         self.strike(world, h);
         if self.blocks.count == 0 {
-            self.fliers.set_out(&mut self.rows, &self.pulls, h);
+            self.fliers.set_out(&mut self.rows, &self.pulls, h, &world.threads);
         } else {
             self.solve(world, h);
         }
         self.book_substep(world, h);
-        self.fliers.arrive(&mut self.rows, &self.pulls, h);
+        self.fliers.arrive(&mut self.rows, &self.pulls, h, &world.threads);
     }
 }

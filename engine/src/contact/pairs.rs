@@ -5,7 +5,6 @@
 use super::Contacts;
 use super::meeting::{Two, Way};
 use super::strike::{MOST_STRIKES, Meets};
-use crate::threads::Threads;
 use crate::world::World;
 
 /// Fewer pairs than so many for a thread are not worth being shared out.
@@ -93,22 +92,14 @@ impl Contacts {
         }
         let Pairs { touches, mut due } = core::mem::take(&mut self.pairs);
         let (contacts, scene) = (&*self, &*world);
-        let mut rest = &mut due[..];
-        let mut tasks = Vec::new();
-        for part in world.threads.parts(touches.len(), 1, PAIRS_PER_THREAD) {
-            let (due, others) = rest.split_at_mut(part.len());
-            rest = others;
-            let touches = &touches[part];
-            tasks.push(move || {
-                let mut sought = 0;
-                for (due, k) in due.iter_mut().zip(touches) {
-                    *due = contacts.next_of_pair(scene, *k as usize, h, &mut sought);
-                }
-                sought
-            });
-        }
-        let sought: u64 = Threads::share(tasks).into_iter().sum();
-        world.work.touches_sought += sought;
+        let sought = world.threads.each(&mut due[..], (1, PAIRS_PER_THREAD), |from, due| {
+            let mut sought = 0;
+            for (due, k) in due.iter_mut().zip(&touches[from..]) {
+                *due = contacts.next_of_pair(scene, *k as usize, h, &mut sought);
+            }
+            sought
+        });
+        world.work.touches_sought += sought.into_iter().sum::<u64>();
         self.pairs = Pairs { touches, due };
     }
 

@@ -8,12 +8,12 @@
 //! Each body is shared out among its touches (mass splitting, Tonge 2012): with as many times its true inverse mass in every
 //! touch as it has touches, improving all at once never overshoots.
 
-use super::arms::{Arms, Lanes, Response};
-use super::blocks::{Block, Blocks, Turned};
-use super::rows::{INVERSE_MASS, INVERSE_MOMENT, Row, Rows, SPIN, TURN, VX, VZ};
-use super::sweep::{gather, normal, parts, push};
-use crate::lanes::{Eight, LANES, Wide};
-use crate::width::{Width, Work};
+use super::blocks::Blocks;
+use super::round::{Beyond, Given, Guess, HandOut, Outcome, PIECE, Round, SHARE};
+use super::rows::{Row, Rows};
+use crate::lanes::LANES;
+use crate::threads::{PER_THREAD, Threads};
+use crate::width::Width;
 
 /// How good is good enough: changes of velocity below this share of what gravity does in a sub-step; more where there
 /// are more touches than a few, for each matters less and all take longer.
@@ -71,17 +71,11 @@ impl Momentum {
     }
 }
 
-/// The pushes and friction of a block, and what the points ask.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Guess {
-    x: [Eight; 3],
-    last: [Eight; 3],
-}
-
 /// What the rounds need, kept for the next time.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Rest {
     guesses: Vec<Guess>,
+    given: Vec<Given>,
     /// Motions at the present guess, at the last one, and beyond both.
     now: Vec<Row>,
     last: Vec<Row>,
@@ -91,40 +85,44 @@ pub(super) struct Rest {
 /// Every touch has two parts that are improved at once: its pushes, and its friction.
 const PARTS: u32 = 2;
 
-/// In rows of this solver the place of the turn holds how many times its inverse mass a body has in each of its touches.
-const SHARE: usize = TURN;
+/// Fewer blocks than so many for a thread are not worth being shared out.
+const BLOCKS_PER_THREAD: usize = 4 * PIECE;
 
 impl Rest {
     /// Improves all touches until they are settled; gives how many rounds it took.
-    pub(super) fn settle(&mut self, rows: &mut Rows, blocks: &mut Blocks, width: Width, effort: Effort) -> Settled {
-        self.begin(rows, blocks);
+    pub(super) fn settle(
+        &mut self,
+        rows: &mut Rows,
+        blocks: &mut Blocks,
+        (width, threads): (Width, &Threads),
+        effort: Effort,
+    ) -> Settled {
+        self.begin(rows, blocks, threads);
         let (mut momentum, mut before) = (Momentum::default(), f64::INFINITY);
         let (mut rounds, mut left) = (0, 0.0);
         while rounds < effort.most {
             rounds += 1;
             let share = momentum.share();
-            let Rest { guesses, now, last, beyond } = self;
-            width.run(Beyond { rows: blocks.rows(), now, last, beyond, share });
-            let Blocks { blocks, turned, .. } = &*blocks;
-            let round = Round::<false> { guesses, blocks, turned, from: beyond, to: now, share };
-            let (change, back) = if turned.is_empty() { width.run(round) } else { width.run(round.turned()) };
-            momentum.go_on(back > 0.0 || change > before);
-            (before, left) = (change, change);
-            if change <= effort.enough {
+            self.go_beyond(blocks.rows(), (width, threads), share);
+            let Outcome { most, back } = self.round(blocks, (width, threads), share);
+            momentum.go_on(back > 0.0 || most > before);
+            (before, left) = (most, most);
+            if most <= effort.enough {
                 break;
             }
         }
-        self.end(rows, blocks);
+        self.end(rows, blocks, threads);
         Settled { rounds, left, enough: left <= effort.enough }
     }
 
-    fn begin(&mut self, rows: &Rows, blocks: &Blocks) {
-        self.guesses.clear();
-        for block in &blocks.blocks {
-            let x = block.pushes();
-            self.guesses.push(Guess { x, last: x });
-        }
-        let Rest { now, last, beyond, .. } = self;
+    fn begin(&mut self, rows: &Rows, blocks: &Blocks, threads: &Threads) {
+        let Rest { guesses, now, last, beyond, .. } = self;
+        guesses.resize(blocks.blocks.len(), Guess::NONE);
+        threads.each(&mut guesses[..], (PIECE, BLOCKS_PER_THREAD), |from, guesses| {
+            for (guess, block) in guesses.iter_mut().zip(&blocks.blocks[from..]) {
+                guess.begin(block.pushes());
+            }
+        });
         for motions in [&mut *now, &mut *last, &mut *beyond] {
             motions.resize(rows.rows.len(), Row([0.0; LANES]));
         }
@@ -139,128 +137,71 @@ impl Rest {
             now[k] = shared(k, 1);
             beyond[k] = now[k];
         }
-        for row in blocks.rows() {
-            let k = *row as usize;
-            now[k] = shared(k, rows.degree[k - first]);
-            last[k] = now[k];
-        }
+        threads.each((&mut now[..], &mut last[..]), (1, PER_THREAD), |from, (now, last)| {
+            for k in own_rows(blocks.rows(), from, now.len()) {
+                now[k] = shared(from + k, rows.degree[from + k - first]);
+                last[k] = now[k];
+            }
+        });
     }
 
-    fn end(&mut self, rows: &mut Rows, blocks: &mut Blocks) {
-        for (block, guess) in blocks.blocks.iter_mut().zip(&self.guesses) {
-            block.set_pushes(guess.x);
+    /// Goes on beyond the last two guesses by that share of the way between them.
+    fn go_beyond(&mut self, rows: &[u32], (width, threads): (Width, &Threads), share: f64) {
+        let Rest { now, last, beyond, .. } = self;
+        let motions = ((&mut now[..], &mut last[..]), &mut beyond[..]);
+        threads.each(motions, (1, PER_THREAD), |from, ((now, last), beyond)| {
+            width.run(Beyond { rows: own_rows(rows, from, now.len()), now, last, beyond, share });
+        });
+    }
+
+    /// Improves every touch once from there; a piece after the other, or where threads share the round all of them before what
+    /// comes of any is handed out.
+    fn round(&mut self, blocks: &Blocks, (width, threads): (Width, &Threads), share: f64) -> Outcome {
+        let Rest { guesses, given, now, beyond, .. } = self;
+        let Blocks { blocks, turned, .. } = blocks;
+        let improve = |from: usize, guesses: &mut [Guess], given: &mut [Given]| {
+            let (blocks, turned) = (&blocks[from..], turned.get(from..).unwrap_or_default());
+            let round = Round::<false> { guesses, given, blocks, turned, from: beyond, share };
+            if turned.is_empty() { width.run(round) } else { width.run(round.turned()) }
+        };
+        let hand_out = |from: usize, given: &[Given], (first, rows): (usize, &mut [Row])| {
+            width.run(HandOut { given, blocks: &blocks[from..], first, rows });
+        };
+        let mut whole = Outcome::default();
+        if threads.parts(guesses.len(), PIECE, BLOCKS_PER_THREAD).len() == 1 {
+            given.resize(PIECE, Given::NOTHING);
+            for (at, piece) in guesses.chunks_mut(PIECE).enumerate() {
+                whole.and(improve(at * PIECE, piece, given));
+                hand_out(at * PIECE, &given[..piece.len()], (0, now));
+            }
+            return whole;
         }
+        given.resize(guesses.len(), Given::NOTHING);
+        let parts = (&mut guesses[..], &mut given[..]);
+        let outcomes = threads.each(parts, (PIECE, BLOCKS_PER_THREAD), |from, (guesses, given)| {
+            let pieces = guesses.chunks_mut(PIECE).zip(given.chunks_mut(PIECE)).zip((from..).step_by(PIECE));
+            pieces.map(|((guesses, given), from)| improve(from, guesses, given)).collect::<Vec<_>>()
+        });
+        outcomes.into_iter().flatten().for_each(|piece| whole.and(piece));
+        threads.each(&mut now[..], (1, PER_THREAD), |first, rows| hand_out(0, given, (first, rows)));
+        whole
+    }
+
+    fn end(&mut self, rows: &mut Rows, blocks: &mut Blocks, threads: &Threads) {
+        let Rest { guesses, now, .. } = self;
+        threads.each(&mut blocks.blocks[..], (PIECE, BLOCKS_PER_THREAD), |from, blocks| {
+            for (block, guess) in blocks.iter_mut().zip(&guesses[from..]) {
+                block.set_pushes(guess.pushes());
+            }
+        });
         for row in blocks.rows() {
-            let now = &self.now[*row as usize];
+            let now = &now[*row as usize];
             rows.rows[*row as usize].set_motion(now.motion());
         }
     }
 }
 
-/// The motions from which the next round starts: on beyond the last two. What does not move of a row stays.
-struct Beyond<'a> {
-    rows: &'a [u32],
-    now: &'a mut [Row],
-    last: &'a mut [Row],
-    beyond: &'a mut [Row],
-    share: f64,
-}
-
-impl Work for Beyond<'_> {
-    type Out = ();
-
-    #[inline(always)]
-    fn run<V: Wide>(self) {
-        let share = V::all(self.share);
-        for row in self.rows {
-            let row = *row as usize;
-            let (now, last) = (V::of(&self.now[row].0), V::of(&self.last[row].0));
-            let beyond = (now + share * (now - last)).eight().0;
-            self.last[row] = self.now[row];
-            (self.now[row].0, self.beyond[row].0) = (beyond, beyond);
-        }
-    }
-}
-
-/// One round: every touch improved from the motions `from`, the changes added to `to`.
-struct Round<'a, const TURNED: bool> {
-    guesses: &'a mut [Guess],
-    blocks: &'a [Block],
-    /// As many, where touches are turned.
-    turned: &'a [Turned],
-    from: &'a [Row],
-    to: &'a mut [Row],
-    share: f64,
-}
-
-impl<'a> Round<'a, false> {
-    fn turned(self) -> Round<'a, true> {
-        let Round { guesses, blocks, turned, from, to, share } = self;
-        Round { guesses, blocks, turned, from, to, share }
-    }
-}
-
-impl<const TURNED: bool> Work for Round<'_, TURNED> {
-    /// The greatest change of a velocity, and whether (positive) the round turns back on the way it came.
-    type Out = (f64, f64);
-
-    #[inline(always)]
-    fn run<V: Wide>(self) -> (f64, f64) {
-        let (mut most, mut back, share) = (V::zero(), V::zero(), V::all(self.share));
-        for (at, (block, guess)) in self.blocks.iter().zip(self.guesses).enumerate() {
-            let (a, b) = (gather::<V>(self.from, &block.row_a), gather::<V>(self.from, &block.row_b));
-            let arms = Arms::<V>::between_mobile(block, &a, &b);
-            let (shared_a, shared_b) = (shared(&a), shared(&b));
-            let response = Response::with(&arms, shared_a.1, shared_b.1);
-            let (mut now, mut from) = ([V::zero(); 3], [V::zero(); 3]);
-            for k in 0..3 {
-                now[k] = V::of(&guess.x[k].0);
-                from[k] = now[k] + share * (now[k] - V::of(&guess.last[k].0));
-            }
-            let slips = if TURNED { Some(V::of(&self.turned[at].slips.0)) } else { None };
-            let (x, change) = improve(block, (&arms, &response), (shared_a, shared_b), &from, slips);
-            guess.last = guess.x;
-            let mut step = x;
-            for k in 0..3 {
-                back = back - change[k] * (x[k] - now[k]);
-                most = most.max(change[k].abs());
-                step[k] = x[k] - from[k];
-                guess.x[k] = x[k].eight();
-            }
-            push::<V>(block, |_, _| arms, self.to, step);
-        }
-        (most.greatest(), back.sum())
-    }
-}
-
-/// A body of every touch, and the inverse mass and moment that it has there.
-type Shared<'a, V> = (&'a Lanes<V>, (V, V));
-
-#[inline(always)]
-fn shared<V: Wide>(row: &Lanes<V>) -> Shared<'_, V> {
-    (row, (row[INVERSE_MASS] * row[SHARE], row[INVERSE_MOMENT] * row[SHARE]))
-}
-
-/// Better pushes and friction, seeing the motions as they are; and the changes as velocities.
-#[inline(always)]
-fn improve<V: Wide>(
-    block: &Block,
-    (arms, shared): (&Arms<V>, &Response<V>),
-    ((a, (mass_a, moment_a)), (b, (mass_b, moment_b))): (Shared<V>, Shared<V>),
-    from: &[V; 3],
-    slips: Option<V>,
-) -> ([V; 3], [V; 3]) {
-    let ((ux, uz), [nx, nz]) = ((b[VX] - a[VX], b[VZ] - a[VZ]), normal::<V>(block));
-    let Arms { along_a, along_b, .. } = *arms;
-    let parts = parts(block, arms, a, b);
-    let q1 = parts[0] - (shared.k[0] * from[0] + shared.across * from[1]);
-    let q2 = parts[1] - (shared.across * from[0] + shared.k[1] * from[1]);
-    let [x1, x2] = shared.complement([q1, q2]);
-    let k = mass_a + mass_b + moment_a * along_a * along_a + moment_b * along_b * along_b;
-    let slip = nz * ux - nx * uz + along_b * b[SPIN] - along_a * a[SPIN];
-    let slip = if let Some(slips) = slips { slip - slips } else { slip };
-    let most = V::of(&block.friction.0) * (x1 + x2);
-    let grip = (from[2] - slip * k.inverse()).min(most).max(-most);
-    let change = [shared.k[0] * (x1 - from[0]), shared.k[1] * (x2 - from[1]), k * (grip - from[2])];
-    ([x1, x2, grip], change)
+/// Those of some rows that lie in a part of all, counted from its beginning.
+fn own_rows(rows: &[u32], first: usize, count: usize) -> impl Iterator<Item = usize> {
+    rows.iter().map(move |row| (*row as usize).wrapping_sub(first)).filter(move |row| *row < count)
 }

@@ -150,6 +150,12 @@ impl Rows {
         &self.rows[IDLE + self.fixed..]
     }
 
+    /// The mobile bodies, and their rows.
+    pub(super) fn mobile_and_rows(&mut self) -> (&[u32], &mut [Row]) {
+        let first = self.first();
+        (&self.mobile, &mut self.rows[first..])
+    }
+
     pub(super) fn of_mobile_mut(&mut self) -> &mut [Row] {
         let first = self.first();
         &mut self.rows[first..]

@@ -39,7 +39,7 @@ impl Search {
         &mut self,
         (bodies, acting, dt): (&Bodies, Acting, f64),
         plan: BroadPhasePlan,
-        (width, threads): (Width, Threads),
+        (width, threads): (Width, &Threads),
         work: &mut Work,
     ) {
         self.sweep((bodies, acting, dt), (width, threads));
@@ -59,7 +59,7 @@ impl Search {
             .zip(met.iter_mut())
             .map(|(part, met)| move || width.run(Visit { grid, cells: part.start as u32..part.end as u32, met }))
             .collect();
-        work.bounds_compared += Threads::share(tasks).into_iter().sum::<u64>();
+        work.bounds_compared += threads.share(tasks).into_iter().sum::<u64>();
         self.sort();
         count(work, self.near.len());
     }
@@ -111,7 +111,7 @@ impl Search {
         Placed { body, frame: &bodies.frame[body], index, rect: &bodies.rects[index] }
     }
 
-    fn sweep(&mut self, (bodies, acting, dt): (&Bodies, Acting, f64), (width, threads): (Width, Threads)) {
+    fn sweep(&mut self, (bodies, acting, dt): (&Bodies, Acting, f64), (width, threads): (Width, &Threads)) {
         let count = bodies.rects.len();
         if self.owners.len() != count {
             self.owners.clear();
@@ -122,15 +122,10 @@ impl Search {
             self.bounds.resize(count, Bounds([0.0; 4]));
         }
         let Search { owners, bounds, .. } = self;
-        let mut rest = &mut bounds[..];
-        let mut tasks = Vec::new();
-        for part in threads.parts(count, LANES, PER_THREAD) {
-            let (bounds, others) = rest.split_at_mut(part.len());
-            rest = others;
-            let owners = &owners[..];
-            tasks.push(move || width.run(SweepAll { bodies, acting, owners, dt, from: part.start, bounds }));
-        }
-        Threads::share(tasks);
+        let owners = &owners[..];
+        threads.each(&mut bounds[..], (LANES, PER_THREAD), |from, bounds| {
+            width.run(SweepAll { bodies, acting, owners, dt, from, bounds });
+        });
     }
 
     /// Puts the pairs in order: counted by their first, placed, then each first's by their second.

@@ -6,6 +6,7 @@ use crate::advance::is_finite;
 use crate::area::Vec2;
 use crate::exchange::PairKind;
 use crate::step::Hit;
+use crate::threads::{PER_THREAD, Threads};
 use crate::world::{BodyId, World};
 
 impl Contacts {
@@ -26,25 +27,39 @@ impl Contacts {
                 world.report_fault(body);
             }
         }
-        for k in 0..self.touches.len() {
-            // A force goes on over a longer time; an impact does not.
-            let share = if share > 1.0 && !self.is_force(k, self.dt) { 1.0 } else { share };
-            let touch = &mut self.touches[k];
-            let (push, grip) = self.blocks.pushes(k);
-            (touch.push, touch.grip) = (push.map(|push| push * share), grip * share);
-            let pressed = touch.push[0] + touch.push[1] > 0.0;
-            let was_open = touch.gap[0].min(touch.gap[1]) > self.band;
-            let is_new = pressed && !touch.touching && was_open && self.lonely.binary_search(&(k as u32)).is_err();
-            touch.touching = pressed;
-            if is_new {
-                let (point, normal) = (touch.middle, self.blocks.normal(k, touch));
-                if let Some(ledger) = &mut world.ledger {
-                    ledger.enter_touch(k);
-                }
-                self.tell(world, k, (point, normal), 0.0);
+        for k in self.remember(&world.threads, share).into_iter().flatten() {
+            let touch = &self.touches[k];
+            let (point, normal) = (touch.middle, self.blocks.normal(k, touch));
+            if let Some(ledger) = &mut world.ledger {
+                ledger.enter_touch(k);
             }
+            self.tell(world, k, (point, normal), 0.0);
         }
         self.touches[self.found..].sort_unstable_by_key(|touch| touch.rects);
+    }
+
+    /// Touches remember that share of what they pushed; gives those that press and did not touch before, in order.
+    fn remember(&mut self, threads: &Threads, share: f64) -> Vec<Vec<usize>> {
+        let mut touches = core::mem::take(&mut self.touches);
+        let contacts = &*self;
+        let new = threads.each(&mut touches[..], (1, PER_THREAD), |from, touches| {
+            let mut new = Vec::new();
+            for (touch, k) in touches.iter_mut().zip(from..) {
+                // A force goes on over a longer time; an impact does not.
+                let share = if share > 1.0 && !contacts.is_force(k, contacts.dt) { 1.0 } else { share };
+                let (push, grip) = contacts.blocks.pushes(k);
+                (touch.push, touch.grip) = (push.map(|push| push * share), grip * share);
+                let pressed = touch.push[0] + touch.push[1] > 0.0;
+                let was_open = touch.gap[0].min(touch.gap[1]) > contacts.band;
+                if pressed && !touch.touching && was_open && contacts.lonely.binary_search(&(k as u32)).is_err() {
+                    new.push(k);
+                }
+                touch.touching = pressed;
+            }
+            new
+        });
+        self.touches = touches;
+        new
     }
 
     /// Tells of a hit of a touch, at a point from the plan's origin.

@@ -69,7 +69,7 @@ impl Contacts {
         if turns {
             self.turn_midway(h, flying::FORCEFUL * pulled);
         }
-        self.fliers.set_out(&mut self.rows, &self.pulls, h);
+        self.fliers.set_out(&mut self.rows, &self.pulls, h, &world.threads);
         self.blocks.note_places(&self.rows);
         let quiet = fastest <= QUIET * pulled;
         // Where nothing pulls, what counts is how fast things are.
@@ -190,7 +190,7 @@ impl Contacts {
     }
 
     pub(super) fn settle_for(&mut self, world: &mut World, effort: Effort) -> Settled {
-        let settled = self.rest.settle(&mut self.rows, &mut self.blocks, self.width, effort);
+        let settled = self.rest.settle(&mut self.rows, &mut self.blocks, (self.width, &world.threads), effort);
         world.work.touches_solved += u64::from(settled.rounds) * self.blocks.count as u64;
         settled
     }

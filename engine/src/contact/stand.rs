@@ -85,13 +85,13 @@ impl Contacts {
 
     /// Balances all forces over a step; whether they do and leave everything standing.
     fn balance(&mut self, world: &mut World, dt: f64, pulled: f64) -> bool {
-        self.fliers.set_out(&mut self.rows, &self.pulls, dt);
+        self.fliers.set_out(&mut self.rows, &self.pulls, dt, &world.threads);
         self.fliers.renew(&mut self.rows);
         let enough = rest::settled(self.touches.len(), pulled);
         let balanced = self.settle_for(world, Effort { enough, most: ROUNDS }).enough;
         let stand = balanced && self.rows.are_slower_than(enough);
         if stand {
-            self.fliers.stand(&mut self.rows, dt);
+            self.fliers.stand(&mut self.rows, dt, &world.threads);
         }
         stand
     }

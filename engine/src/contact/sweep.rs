@@ -238,21 +238,22 @@ fn give<V: Numbers>((a, b): (&mut Lanes<V>, &mut Lanes<V>), [x, z, turn]: [usize
     b[turn] = b[turn] + turned[1];
 }
 
+/// What pushes at both points and friction along the face come to: the impulse that b is given, and how much it turns a and b.
+#[inline(always)]
+pub(super) fn given<V: Numbers>(block: &Block, arms: &Arms<V>, [p1, p2, pt]: [V; 3]) -> [V; 4] {
+    let (sum, [nx, nz]) = (p1 + p2, normal::<V>(block));
+    let twist = |lever: [V; 2], along: V| lever[0] * p1 + lever[1] * p2 + along * pt;
+    let twists = [twist(arms.lever_a, arms.along_a), twist(arms.lever_b, arms.along_b)];
+    [nx * sum + nz * pt, nz * sum - nx * pt, twists[0], twists[1]]
+}
+
 /// Gives pushes at both points and friction along the face to the bodies of a block.
 #[inline(always)]
-pub(super) fn push<V: Numbers>(
-    block: &Block,
-    arms: impl Fn(&Lanes<V>, &Lanes<V>) -> Arms<V>,
-    rows: &mut [Row],
-    [p1, p2, pt]: [V; 3],
-) {
+pub(super) fn push<V: Numbers>(block: &Block, rows: &mut [Row], pushes: [V; 3]) {
     let (mut a, mut b) = (gather::<V>(rows, &block.row_a), gather::<V>(rows, &block.row_b));
-    let arms = arms(&a, &b);
-    let (sum, [nx, nz]) = (p1 + p2, normal::<V>(block));
-    let p = [nx * sum + nz * pt, nz * sum - nx * pt];
-    let turn_a = a[INVERSE_MOMENT] * (arms.lever_a[0] * p1 + arms.lever_a[1] * p2 + arms.along_a * pt);
-    let turn_b = b[INVERSE_MOMENT] * (arms.lever_b[0] * p1 + arms.lever_b[1] * p2 + arms.along_b * pt);
-    give((&mut a, &mut b), MOTION, p, [turn_a, turn_b]);
+    let [x, z, twist_a, twist_b] = given(block, &Arms::of(block, &a, &b), pushes);
+    let turned = [a[INVERSE_MOMENT] * twist_a, b[INVERSE_MOMENT] * twist_b];
+    give((&mut a, &mut b), MOTION, [x, z], turned);
     scatter(rows, &block.row_a, a);
     scatter(rows, &block.row_b, b);
 }
