@@ -1,12 +1,13 @@
 //! Advance (§2.1): every body that moves goes on by one time step.
 
 use crate::area::Vec2;
-use crate::bodies::{Bodies, Motion, Role};
+use crate::bodies::{Bodies, Motion, Role, shift, turn};
 use crate::flight::{Pull, turned};
 use crate::forces::Flight;
 use crate::frame::Frame;
 use crate::plan::FlightPlan;
 use crate::prescribed::Prescription;
+use crate::threads::{PER_THREAD, Threads};
 use crate::work::Work;
 
 /// Which bodies move, by the way they move; a scene without one sort has an empty list.
@@ -80,43 +81,47 @@ pub fn advance(
     lost_mobile.or(lost_fixed)
 }
 
-/// The same for bodies that nothing touches, each under what acts on it; those on a course are left out.
+/// The same for bodies that nothing touches, each under what acts on it, shared by threads; those on a course are left out.
 pub(crate) fn advance_alone(
     bodies: &mut Bodies,
     movers: &Movers,
-    flight: FlightPlan,
-    dt: f64,
-    pulls: Option<&impl Fn(usize) -> Pull>,
-    touched: impl Fn(u32) -> bool,
-    work: &mut Work,
+    (flight, dt): (FlightPlan, f64),
+    pulls: Option<&(impl Fn(usize) -> Pull + Sync)>,
+    touched: impl Fn(u32) -> bool + Sync,
+    (threads, work): (&Threads, &mut Work),
 ) -> Option<usize> {
-    let mut lost = None;
     let (_, drag) = flight.forces();
     let (linear, angular) = (Flight::new(drag.0, dt), Flight::new(drag.1, dt));
-    for &body in &movers.mobile {
-        if touched(body) {
-            continue;
+    let Bodies { frame, lost, angle, motion, role, .. } = &mut *bodies;
+    let columns = ((&mut frame[..], &mut lost[..]), (&mut angle[..], &mut motion[..]));
+    let lost = threads.each(columns, (1, PER_THREAD), |from, ((frame, lost), (angle, motion))| {
+        let mut gone = None;
+        for k in 0..frame.len() {
+            let i = from + k;
+            if role[i] != Role::Mobile || touched(i as u32) {
+                continue;
+            }
+            let Motion { v, omega } = motion[k];
+            let Pull { a, alpha, .. } = pulls.map_or(Pull::NONE, |on| on(i));
+            shift((&mut frame[k], &mut lost[k]), v * linear.reach + a * linear.fall);
+            if omega != 0.0 || alpha != 0.0 {
+                turn((&mut frame[k], &mut angle[k]), omega * angular.reach + alpha * angular.fall);
+            }
+            if pulls.is_some() {
+                let v = v * linear.keep + a * linear.reach;
+                motion[k] = Motion { v, omega: omega * angular.keep + alpha * angular.reach };
+            }
+            if !stands(&frame[k]) {
+                gone = gone.or(Some(i));
+            }
         }
-        let i = body as usize;
-        let Motion { v, omega } = bodies.motion[i];
-        let Pull { a, alpha, .. } = pulls.map_or(Pull::NONE, |on| on(i));
-        bodies.shift(i, v * linear.reach + a * linear.fall);
-        if omega != 0.0 || alpha != 0.0 {
-            bodies.turn(i, omega * angular.reach + alpha * angular.fall);
-        }
-        if pulls.is_some() {
-            let v = v * linear.keep + a * linear.reach;
-            bodies.motion[i] = Motion { v, omega: omega * angular.keep + alpha * angular.reach };
-        }
-        if !is_finite(bodies, i) {
-            lost = lost.or(Some(i));
-        }
-    }
+        gone
+    });
     work.bodies_advanced += (movers.mobile.len() + movers.fixed.len()) as u64;
     if flight != FlightPlan::Free {
         work.bodies_forced += movers.mobile.len() as u64;
     }
-    lost.or(drift(bodies, &movers.fixed, dt))
+    lost.into_iter().flatten().next().or(drift(bodies, &movers.fixed, dt))
 }
 
 /// `O += v·dt`, `θ += ω·dt`.
@@ -173,6 +178,10 @@ pub fn frame_before(bodies: &Bodies, flight: FlightPlan, dt: f64, body: usize) -
 /// Whether place and angle are still numbers; motion that is not shows up in them a step later at most.
 #[inline]
 pub fn is_finite(bodies: &Bodies, i: usize) -> bool {
-    let frame = &bodies.frame[i];
+    stands(&bodies.frame[i])
+}
+
+#[inline]
+fn stands(frame: &Frame) -> bool {
     frame.o.x.is_finite() & frame.o.y.is_finite() & frame.cos.is_finite()
 }

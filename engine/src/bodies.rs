@@ -102,16 +102,13 @@ impl Bodies {
     /// Moves a body's centre; what the addition rounds away is carried to the next.
     #[inline]
     pub fn shift(&mut self, body: usize, by: Vec2) {
-        let (o, lost) = (&mut self.frame[body].o, &mut self.lost[body]);
-        (o.x, lost.x) = add_kept(o.x, lost.x, by.x);
-        (o.y, lost.y) = add_kept(o.y, lost.y, by.y);
+        shift((&mut self.frame[body], &mut self.lost[body]), by);
     }
 
     /// Turns a body about its centre.
     #[inline]
     pub fn turn(&mut self, body: usize, by: f64) {
-        self.angle[body].turn(by);
-        self.refresh_rotation(body);
+        turn((&mut self.frame[body], &mut self.angle[body]), by);
     }
 
     /// Puts a body at a place, exactly.
@@ -123,13 +120,25 @@ impl Bodies {
     /// Gives a body an angle, exactly.
     pub fn set_angle(&mut self, body: usize, angle: f64) {
         self.angle[body] = Angle::new(angle);
-        self.refresh_rotation(body);
+        point(&mut self.frame[body], &self.angle[body]);
     }
+}
 
-    #[inline]
-    fn refresh_rotation(&mut self, body: usize) {
-        let (sin, cos) = sin_cos(self.angle[body].value);
-        self.frame[body].sin = sin;
-        self.frame[body].cos = cos;
-    }
+/// Moves a body's centre, with what earlier additions have rounded away.
+#[inline]
+pub(crate) fn shift((frame, lost): (&mut Frame, &mut Vec2), by: Vec2) {
+    (frame.o.x, lost.x) = add_kept(frame.o.x, lost.x, by.x);
+    (frame.o.y, lost.y) = add_kept(frame.o.y, lost.y, by.y);
+}
+
+/// Turns a body about its centre.
+#[inline]
+pub(crate) fn turn((frame, angle): (&mut Frame, &mut Angle), by: f64) {
+    angle.turn(by);
+    point(frame, angle);
+}
+
+#[inline]
+fn point(frame: &mut Frame, angle: &Angle) {
+    (frame.sin, frame.cos) = sin_cos(angle.value);
 }

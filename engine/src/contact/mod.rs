@@ -291,10 +291,10 @@ impl World {
 
     /// Bodies that nothing is near.
     fn fly_alone(&mut self, contacts: &Contacts, dt: f64) {
-        let World { plan, bodies, movers, work, .. } = self;
+        let World { plan, bodies, movers, threads, work, .. } = self;
         let touched = |body: u32| contacts.solves && contacts.rows.of(body).is_some();
         let pulls = contacts.pulls.act().then_some(|body: usize| contacts.pulls.on_mobile(body));
-        let lost = advance_alone(bodies, movers, plan.flight, dt, pulls.as_ref(), touched, work);
+        let lost = advance_alone(bodies, movers, (plan.flight, dt), pulls.as_ref(), touched, (threads, work));
         if let Some(body) = lost {
             self.report_fault(body);
         }
