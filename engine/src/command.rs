@@ -122,7 +122,7 @@ impl World {
             commanded.push(id);
         }
         if let Some(contacts) = &mut self.contacts {
-            contacts.wake();
+            contacts.wake(self.bodies.is_mobile(id.index()));
         }
     }
 

@@ -35,29 +35,45 @@ impl Bounds {
     }
 }
 
-/// Whose bounds they are: the body, and whether it is mobile.
+/// Whose bounds they are: the body, whether it may have moved since pairs were last looked for, and whether it is mobile.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Owner(u32);
 
+/// The two highest bits: that both are set between two is one comparison.
+const MOBILE: u32 = 1 << 31;
+const MOVES: u32 = 1 << 30;
+const BODY: u32 = MOVES - 1;
+
 impl Owner {
+    /// One that may have moved.
     pub(crate) fn new(body: usize, is_mobile: bool) -> Self {
-        Owner((body as u32) << 1 | u32::from(is_mobile))
+        Owner(body as u32 | MOVES | if is_mobile { MOBILE } else { 0 })
+    }
+
+    /// The same, lying still or not.
+    pub(crate) fn lying(self, lies: bool) -> Self {
+        Owner(if lies { self.0 & !MOVES } else { self.0 | MOVES })
     }
 
     #[inline(always)]
     pub(crate) fn body(self) -> usize {
-        (self.0 >> 1) as usize
+        (self.0 & BODY) as usize
     }
 
     #[inline(always)]
     pub(crate) fn is_mobile(self) -> bool {
-        self.0 & 1 != 0
+        self.0 & MOBILE != 0
     }
 
-    /// Whether the two can collide: different bodies, one of them mobile.
+    #[inline(always)]
+    pub(crate) fn moves(self) -> bool {
+        self.0 & MOVES != 0
+    }
+
+    /// Whether the two can collide, and not as they could before: different bodies, one of them mobile, and one that may have moved.
     #[inline(always)]
     pub(crate) fn can_meet(self, other: Owner) -> bool {
-        (self != other) & ((self.0 | other.0) & 1 != 0)
+        ((self.0 ^ other.0) & BODY != 0) & ((self.0 | other.0) >= (MOBILE | MOVES))
     }
 }
 

@@ -23,12 +23,16 @@ impl Contacts {
 
     /// Finds all touches of the step, and what they remember of the last.
     pub(super) fn find(&mut self, world: &mut World, dt: f64) {
-        let World { plan, bodies, threads, work, .. } = world;
+        let World { plan, bodies, movers, threads, work, .. } = world;
         let bodies = &*bodies;
         core::mem::swap(&mut self.touches, &mut self.before);
         self.touches.clear();
         let acting = Acting::new(&self.pulls);
-        self.search.pairs((bodies, acting, dt), plan.broad_phase, (self.width, threads), work);
+        if self.still.find(bodies, movers, &self.pulls, &self.before) {
+            self.search.own(bodies, &self.still);
+            self.apart.keep(&self.search, &self.still, bodies.len());
+        }
+        self.search.pairs((bodies, acting, dt), &self.still, plan.broad_phase, (self.width, threads), work);
         let earlier = |body: usize| frame_before(bodies, plan.flight, plan.time_step, body);
         let Contacts { search, touches, before, apart, shares, width, found, .. } = self;
         let apart = apart.begin();

@@ -2,7 +2,7 @@
 //!
 //! | stage | function |
 //! |---|---|
-//! | who may touch within the step, and where | [`Contacts::find`] |
+//! | who may touch within the step, and where | [`Contacts::find`]; but for two that lie [`still`] |
 //! | bodies and touches laid out for the solver | [`Contacts::lay_out`], [`rows`], [`blocks`] |
 //! | sub-step: impacts, of fast bodies, of those that touch no other, and in crowds | [`fast`], [`pairs`], [`strike`] |
 //! | what an impact or a push sets against others that were apart | [`wake`] |
@@ -18,6 +18,7 @@
 mod abreast;
 mod acting;
 mod ahead;
+mod apart;
 mod arms;
 mod blocks;
 mod booked;
@@ -48,6 +49,7 @@ mod settle;
 mod slide;
 mod solve;
 mod stand;
+mod still;
 mod strike;
 mod sweep;
 mod swept;
@@ -63,6 +65,7 @@ use crate::plan::{ContactPlan, FlightPlan};
 use crate::step::Hit;
 use crate::width::Width;
 use crate::world::World;
+use apart::Apart;
 use blocks::Blocks;
 use fast::Fast;
 use flying::Fliers;
@@ -74,8 +77,8 @@ use remembered::Remembered;
 use rest::Rest;
 use rows::{Row, Rows};
 use search::Search;
+use still::Still;
 use touch::Touch;
-use wake::Apart;
 
 pub use loads::Load;
 
@@ -102,6 +105,8 @@ pub(crate) struct Contacts {
     before: Vec<Touch>,
     /// Pairs of rectangles that may meet within the step.
     search: Search,
+    /// Bodies that lie still, whose pairs are not searched for again.
+    still: Still,
     /// Pairs that are near and stay apart, as far as can be told when the step begins.
     apart: Apart,
     /// What threads other than the first find, kept for its room.
@@ -159,6 +164,7 @@ impl Contacts {
             touches: Vec::new(),
             before: Vec::new(),
             search: Search::default(),
+            still: Still::default(),
             apart: Apart::default(),
             shares: Vec::new(),
             dt: 0.0,
@@ -304,7 +310,7 @@ impl World {
 impl Contacts {
     /// In how many parts the step is solved.
     fn parts(&self) -> u32 {
-        let few = (1..=A_FEW).contains(&(self.touches.len() + self.apart.pairs().len()));
+        let few = (1..=A_FEW).contains(&(self.touches.len() + self.apart.count()));
         if few { self.plan.substeps } else { 1 }
     }
 

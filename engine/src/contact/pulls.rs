@@ -1,5 +1,6 @@
 //! What acts on each body over a step: gravity, drag, pushes.
 
+use crate::area::Vec2;
 use crate::bodies::Bodies;
 use crate::flight::Pull;
 use crate::plan::FlightPlan;
@@ -59,6 +60,13 @@ impl Pulls {
     #[inline(always)]
     pub(super) fn on_mobile(&self, body: usize) -> Pull {
         self.each.get(body).copied().unwrap_or(self.on_mobile)
+    }
+
+    /// Whether anything moves a body that does not move.
+    #[inline]
+    pub(super) fn pull(&self, body: usize) -> bool {
+        let Pull { a, alpha, .. } = self.on(body);
+        a != Vec2::zeros() || alpha != 0.0
     }
 
     /// One after the other.

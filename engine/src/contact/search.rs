@@ -1,6 +1,7 @@
 //! Which rectangles are worth a full look: pairs whose swept bounds meet and that no axis holds apart, in order.
 
 use super::acting::Acting;
+use super::still::Still;
 use super::swept::SweepAll;
 use crate::bodies::Bodies;
 use crate::broad_phase::grid::Grid;
@@ -21,6 +22,11 @@ pub(super) struct Search {
     /// What each sweeps over the step.
     bounds: Vec<Bounds>,
     grid: Grid,
+    /// The look at which the grid was filled; and whether that was an earlier one than this: then rectangles that move, listed, may be
+    /// elsewhere by now.
+    filled: u64,
+    is_old: bool,
+    moving: Vec<u32>,
     /// What was found, by the parts it was shared out in.
     met: Vec<Met>,
     /// The pairs found, by the indices of their rectangles, i < j, in order.
@@ -34,23 +40,34 @@ pub(super) struct Search {
 const SPARSE: usize = 8;
 
 impl Search {
-    /// The pairs that may touch within a time, in the order of their rectangles: the same whatever way they are found.
+    /// The pairs that may touch within a time, but for those of two bodies that lie still, in the order of their rectangles: the same
+    /// whatever way they are found.
     pub(super) fn pairs(
         &mut self,
         (bodies, acting, dt): (&Bodies, Acting, f64),
+        still: &Still,
         plan: BroadPhasePlan,
         (width, threads): (Width, &Threads),
         work: &mut Work,
     ) {
+        if self.owners.len() != bodies.rects.len() {
+            self.own(bodies, still);
+        }
+        self.near.clear();
+        self.is_old = plan != BroadPhasePlan::AllPairs && still.lay_at(self.filled) && self.few_move();
+        if self.is_old {
+            self.pairs_of_few((bodies, acting, dt), width, work);
+            return;
+        }
         self.sweep((bodies, acting, dt), (width, threads));
         work.bounds += self.bounds.len() as u64;
-        self.near.clear();
         let Search { owners, bounds, grid, met, near, .. } = self;
         if plan == BroadPhasePlan::AllPairs {
             all_pairs(bounds, owners, near, work);
             return;
         }
         grid.fill(bounds, owners);
+        self.filled = still.looks();
         let grid = &*grid;
         let parts = threads.parts(grid.cells() as usize, 1, PER_THREAD);
         met.resize_with(parts.len(), Met::default);
@@ -62,6 +79,35 @@ impl Search {
         work.bounds_compared += threads.share(tasks).into_iter().sum::<u64>();
         self.sort();
         count(work, self.near.len());
+    }
+
+    /// Lists what moves; whether it is little enough to be compared one by one.
+    fn few_move(&mut self) -> bool {
+        let moving = (0..self.owners.len() as u32).filter(|rect| self.owners[*rect as usize].moves());
+        let most = self.owners.len().isqrt();
+        self.moving.clear();
+        self.moving.extend(moving.take(most + 1));
+        self.moving.len() <= most
+    }
+
+    /// The pairs of what moves: with what lies where it lay when the grid was filled, and with each other.
+    fn pairs_of_few(&mut self, (bodies, acting, dt): (&Bodies, Acting, f64), width: Width, work: &mut Work) {
+        let Search { owners, bounds, moving, grid, around, near, .. } = self;
+        for rect in moving.iter().map(|rect| *rect as usize) {
+            width.run(SweepAll { bodies, acting, owners, dt, from: rect, bounds: &mut bounds[rect..=rect] });
+        }
+        work.bounds += moving.len() as u64;
+        for (at, &rect) in moving.iter().enumerate() {
+            let (owner, own) = (owners[rect as usize], bounds[rect as usize]);
+            work.bounds_compared += grid.around(rect, owner, own, around);
+            near.extend(around.pairs().iter().filter(|pair| !owners[other(**pair, rect) as usize].moves()));
+            let later = &moving[at + 1..];
+            work.bounds_compared += later.len() as u64;
+            let meet = |other: u32| owner.can_meet(owners[other as usize]) & own.meet(&bounds[other as usize]);
+            near.extend(later.iter().filter(|other| meet(**other)).map(|other| (rect, *other)));
+        }
+        near.sort_unstable();
+        count(work, near.len());
     }
 
     /// The pairs found last.
@@ -77,15 +123,21 @@ impl Search {
         near: &mut Vec<u32>,
         work: &mut Work,
     ) {
-        let owner = self.owners[rect as usize];
+        let owner = self.owners[rect as usize].lying(false);
+        let meets =
+            |other: &u32| owner.can_meet(self.owners[*other as usize]) && self.bounds[*other as usize].meet(&swept);
         if plan == BroadPhasePlan::AllPairs {
             work.bounds_compared += self.bounds.len() as u64;
-            let met = self.bounds.iter().zip(&self.owners).enumerate();
-            near.extend(met.filter(|(_, (b, o))| owner.can_meet(**o) && b.meet(&swept)).map(|(other, _)| other as u32));
+            near.extend((0..self.bounds.len() as u32).filter(meets));
             return;
         }
+        if self.is_old {
+            work.bounds_compared += self.moving.len() as u64;
+            near.extend(self.moving.iter().copied().filter(meets));
+        }
         work.bounds_compared += self.grid.around(rect, owner, swept, &mut self.around);
-        near.extend(self.around.pairs().iter().map(|(one, two)| if *one == rect { *two } else { *one }));
+        let met = self.around.pairs().iter().map(|pair| other(*pair, rect));
+        near.extend(met.filter(|other| !(self.is_old && self.owners[*other as usize].moves())));
     }
 
     /// Whether bounds lie within those that a rectangle was taken to sweep over.
@@ -111,16 +163,18 @@ impl Search {
         Placed { body, frame: &bodies.frame[body], index, rect: &bodies.rects[index] }
     }
 
+    /// Notes whose each rectangle is, and which of them lie still.
+    pub(super) fn own(&mut self, bodies: &Bodies, still: &Still) {
+        self.owners.clear();
+        for body in 0..bodies.len() {
+            let owner = Owner::new(body, bodies.is_mobile(body)).lying(still.lies(body));
+            self.owners.extend(bodies.rects_of(body).iter().map(|_| owner));
+        }
+        self.bounds.resize(self.owners.len(), Bounds([0.0; 4]));
+    }
+
     fn sweep(&mut self, (bodies, acting, dt): (&Bodies, Acting, f64), (width, threads): (Width, &Threads)) {
         let count = bodies.rects.len();
-        if self.owners.len() != count {
-            self.owners.clear();
-            for body in 0..bodies.len() {
-                let owner = Owner::new(body, bodies.is_mobile(body));
-                self.owners.extend(bodies.rects_of(body).iter().map(|_| owner));
-            }
-            self.bounds.resize(count, Bounds([0.0; 4]));
-        }
         let Search { owners, bounds, .. } = self;
         let owners = &owners[..];
         threads.each(&mut bounds[..], (LANES, PER_THREAD), |from, bounds| {
@@ -160,6 +214,11 @@ impl Search {
             }
         }
     }
+}
+
+/// The other of a pair.
+fn other((one, two): (u32, u32), rect: u32) -> u32 {
+    if one == rect { two } else { one }
 }
 
 /// Every pair whose bounds meet: what the grid is held to.

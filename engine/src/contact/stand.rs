@@ -69,9 +69,13 @@ impl World {
 }
 
 impl Contacts {
-    /// Something has been done to a body: nothing sleeps any more.
-    pub(crate) fn wake(&mut self) {
+    /// Something has been done to a body: nothing sleeps any more. What may part the seam of fixed bodies is not to be told by where
+    /// they stand.
+    pub(crate) fn wake(&mut self, is_mobile: bool) {
         self.stood = false;
+        if !is_mobile {
+            self.still.forget();
+        }
     }
 
     /// Touches push as they did in the sub-steps of the step before, over the whole step.

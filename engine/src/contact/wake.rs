@@ -5,10 +5,9 @@
 //! part in any gets a row, at the place to which it has flown by then.
 
 use super::Contacts;
+use super::apart::Which;
 use super::flying::Fliers;
-use super::links::Links;
-use super::rows::{Rows, TURN};
-use super::search::Search;
+use super::rows::TURN;
 use super::swept::ROOM;
 use super::touch::Touch;
 use crate::area::Vec2;
@@ -19,78 +18,6 @@ use crate::world::World;
 /// What contacts change of a body's motion beyond holding it against gravity, as a share of what that does in a sub-step,
 /// before it matters to those it is near.
 const DEVIATES: f64 = 1e-6;
-
-/// The pairs of a part of a step that stay apart.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Apart {
-    /// By the indices of their rectangles, in order; and whether each has been woken.
-    pairs: Vec<(u32, u32)>,
-    woken: Vec<bool>,
-    /// The axis that held each apart most when the part began, from the first to the second, and by how much \[m\]; once it was asked for.
-    axes: Vec<Option<(Vec2, f64)>>,
-    /// The pairs of each body.
-    links: Links,
-    /// Rows of bodies that have pairs and that touches laid out may push, each once; and by row, whether it is among them.
-    pushed: Vec<u32>,
-    is_pushed: Vec<bool>,
-}
-
-impl Apart {
-    /// No pairs yet.
-    pub(super) fn begin(&mut self) -> &mut Vec<(u32, u32)> {
-        self.pairs.clear();
-        &mut self.pairs
-    }
-
-    pub(super) fn pairs(&self) -> &[(u32, u32)] {
-        &self.pairs
-    }
-
-    /// The pair of two rectangles, if it is one of these, has become a touch.
-    pub(super) fn join(&mut self, rects: (u32, u32)) {
-        if let Ok(pair) = self.pairs.binary_search(&rects) {
-            self.woken[pair] = true;
-        }
-    }
-
-    /// Links every body to its pairs.
-    pub(super) fn link(&mut self, search: &Search, bodies: usize) {
-        self.woken.clear();
-        self.woken.resize(self.pairs.len(), false);
-        self.axes.clear();
-        self.axes.resize(self.pairs.len(), None);
-        self.links.clear();
-        let body_of = |rect: u32| search.body_of(rect) as u32;
-        self.links.go_on(self.pairs.iter().map(|(one, two)| (body_of(*one), body_of(*two))), bodies);
-    }
-
-    /// Remembers the rows that touches laid out may push and whose bodies have pairs.
-    pub(super) fn begin_pushing(&mut self, rows: &Rows, is_laid_out: impl Fn(usize) -> bool) {
-        self.pushed.clear();
-        self.is_pushed.clear();
-        self.is_pushed.resize(rows.rows.len(), false);
-        for (k, body) in rows.mobile.iter().enumerate() {
-            let row = rows.first() + k;
-            if self.links.last(*body as usize).is_some() && is_laid_out(row) {
-                self.is_pushed[row] = true;
-                self.pushed.push(row as u32);
-            }
-        }
-    }
-
-    /// The rows of a touch that is laid out from now on.
-    pub(super) fn push_too(&mut self, rows: &Rows, (a, b): (u32, u32)) {
-        self.is_pushed.resize(rows.rows.len(), false);
-        for row in [a, b] {
-            let Some(k) = rows.mobile_of(row) else { continue };
-            if self.links.last(rows.mobile[k] as usize).is_some()
-                && !core::mem::replace(&mut self.is_pushed[row as usize], true)
-            {
-                self.pushed.push(row);
-            }
-        }
-    }
-}
 
 impl Contacts {
     /// Wakes pairs of bodies that contacts have given another motion than they set out with; whether there were any.
@@ -124,19 +51,17 @@ impl Contacts {
 
     /// Looks again at the pairs of a body that has been given another motion.
     pub(super) fn wake_around(&mut self, world: &mut World, body: usize, under_way: Option<f64>) {
-        let mut next = self.apart.links.last(body);
-        while let Some(link) = next {
-            next = self.apart.links.before(link);
-            let pair = (link / 2) as usize;
-            if !self.apart.woken[pair] {
+        let mut around = self.apart.around(body);
+        while let Some(pair) = self.apart.next(&mut around) {
+            if !self.apart.is_woken(pair) {
                 self.look_once_more(world, pair, under_way);
             }
         }
     }
 
     /// Makes a touch of a pair that may touch by now.
-    fn look_once_more(&mut self, world: &mut World, pair: usize, under_way: Option<f64>) {
-        let rects = [self.apart.pairs[pair].0, self.apart.pairs[pair].1];
+    fn look_once_more(&mut self, world: &mut World, pair: Which, under_way: Option<f64>) {
+        let rects: [u32; 2] = self.apart.rects(pair).into();
         let bodies = rects.map(|rect| self.search.body_of(rect));
         if !self.may_meet(world, pair, bodies) {
             return;
@@ -155,7 +80,7 @@ impl Contacts {
         margin = (margin + u.norm()) * left + ROOM * (placed[0].rect.half().min() + placed[1].rect.half().min());
         let stood = |body: usize| world.bodies.frame[body];
         let Some(touch) = Touch::find(&world.bodies, (placed[0], placed[1]), margin, None, stood) else { return };
-        self.apart.woken[pair] = true;
+        self.apart.wake(pair);
         for body in bodies {
             self.join(world, body, under_way);
         }
@@ -180,10 +105,10 @@ impl Contacts {
     }
 
     /// Whether two rectangles may come to touch in what is left of the part, by the axis that held them apart when it began.
-    fn may_meet(&mut self, world: &World, pair: usize, bodies: [usize; 2]) -> bool {
-        let (one, two) = self.apart.pairs[pair];
+    fn may_meet(&mut self, world: &World, pair: Which, bodies: [usize; 2]) -> bool {
+        let (one, two) = self.apart.rects(pair);
         let [a, b] = [one, two].map(|rect| self.search.placed(&world.bodies, rect));
-        let (axis, gap) = *self.apart.axes[pair].get_or_insert_with(|| widest_gap(a.frame, a.rect, b.frame, b.rect));
+        let (axis, gap) = *self.apart.axis(pair).get_or_insert_with(|| widest_gap(a.frame, a.rect, b.frame, b.rect));
         let left = self.dt - self.gone;
         let (mut now, mut end, mut room) = ([0.0; 2], [0.0; 2], 0.0);
         for side in 0..2 {

@@ -20,6 +20,7 @@
 //! | T30, walls that close on fifty cars | [`crush`] |
 //! | momenta of what is driven apart | [`momenta`] |
 //! | T11, T12, darts, what is struck before a wall: fast bodies | [`fast`] |
+//! | what lies still until it is hit | [`still`] |
 //!
 //! Most are scenarios too: `scenarios/contact`.
 
@@ -36,4 +37,5 @@ mod momenta;
 mod rocking;
 mod sliding;
 mod stacks;
+mod still;
 mod toppling;
