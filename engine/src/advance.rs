@@ -94,7 +94,7 @@ pub(crate) fn advance_alone(
     let (linear, angular) = (Flight::new(drag.0, dt), Flight::new(drag.1, dt));
     let Bodies { frame, lost, angle, motion, role, .. } = &mut *bodies;
     let columns = ((&mut frame[..], &mut lost[..]), (&mut angle[..], &mut motion[..]));
-    let lost = threads.each(columns, (1, PER_THREAD), |from, ((frame, lost), (angle, motion))| {
+    let lost = threads.each(columns, (1, 8 * PER_THREAD), |from, ((frame, lost), (angle, motion))| {
         let mut gone = None;
         for k in 0..frame.len() {
             let i = from + k;
@@ -181,7 +181,8 @@ pub fn is_finite(bodies: &Bodies, i: usize) -> bool {
     stands(&bodies.frame[i])
 }
 
+/// Whether a place and a direction are numbers.
 #[inline]
-fn stands(frame: &Frame) -> bool {
+pub(crate) fn stands(frame: &Frame) -> bool {
     frame.o.x.is_finite() & frame.o.y.is_finite() & frame.cos.is_finite()
 }

@@ -19,8 +19,11 @@ pub(crate) const PER_THREAD: usize = 2048;
 /// How often a helper looks for something to do before it goes to sleep: for about half a millisecond.
 const LINGERS: u32 = 1 << 14;
 
-/// How long the first thread waits for the others before it goes to sleep itself: about a millisecond.
-const WAITS: u32 = 1 << 14;
+/// How long the first thread waits for the others before it goes to sleep itself: a millisecond or two.
+const WAITS: u32 = 1 << 15;
+
+/// Whoever has not begun when the first thread is done, and keeps it waiting for so long, comes late: waking up takes less.
+const LATE: usize = 1 << 12;
 
 /// What others need to leave once their work is done, which the first thread better waits for awake too.
 const LEAVING: u32 = 64;
@@ -109,6 +112,16 @@ impl<T: Send> Parted for &mut [T] {
     }
 }
 
+impl<T: Sync> Parted for &[T] {
+    fn count(&self) -> usize {
+        self.len()
+    }
+
+    fn part(self, count: usize) -> (Self, Self) {
+        self.split_at(count)
+    }
+}
+
 impl<A: Parted, B: Parted> Parted for (A, B) {
     fn count(&self) -> usize {
         self.0.count()
@@ -166,10 +179,10 @@ impl Crew {
             if let Some((task, result)) = first {
                 *result = Some(task());
             }
-            let in_time = begun.load(Ordering::Relaxed) == others;
+            let have_begun = begun.load(Ordering::Relaxed) == others;
             let is_over = || done.load(Ordering::Acquire) == others;
             let waited = (0..WAITS).take_while(|_| !is_over()).map(|_| spin_loop()).count();
-            self.judge(in_time && waited < WAITS as usize);
+            self.judge(waited < if have_begun { WAITS as usize } else { LATE });
             (0..LEAVING).for_each(|_| spin_loop());
         });
         results.into_iter().map(|result| result.expect("a task that panics ends the scope so")).collect()

@@ -183,12 +183,14 @@ impl Fliers {
     }
 
     /// The motions of bodies on which contacts push as they are now said to.
-    pub(super) fn renew(&self, rows: &mut Rows) {
-        for (flier, Row(row)) in self.fliers.iter().zip(rows.of_mobile_mut()) {
-            for (at, q) in [VX, VZ, SPIN].into_iter().enumerate() {
-                row[q] = flier.free[at] + flier.carried[at];
+    pub(super) fn renew(&self, rows: &mut Rows, threads: &Threads) {
+        threads.each(rows.of_mobile_mut(), (1, PER_THREAD), |from, rows| {
+            for (flier, Row(row)) in self.fliers[from..].iter().zip(rows) {
+                for (at, q) in [VX, VZ, SPIN].into_iter().enumerate() {
+                    row[q] = flier.free[at] + flier.carried[at];
+                }
             }
-        }
+        });
     }
 
     /// How bodies are likely to move on the whole of a sub-step: if forces change their motions as they did in the one before.

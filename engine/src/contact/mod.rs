@@ -63,6 +63,7 @@ use crate::bodies::{Bodies, Motion};
 use crate::frame::Angle;
 use crate::plan::{ContactPlan, FlightPlan};
 use crate::step::Hit;
+use crate::threads::Threads;
 use crate::width::Width;
 use crate::world::World;
 use apart::Apart;
@@ -359,11 +360,11 @@ impl Contacts {
         self.strike_pairs(world, h);
         self.strike(world, h);
         if self.blocks.count == 0 {
-            self.fliers.set_out(&mut self.rows, &self.pulls, h, &world.threads);
+            self.fliers.set_out(&mut self.rows, &self.pulls, h, &Threads::default());
         } else {
             self.solve(world, h);
         }
         self.book_substep(world, h);
-        self.fliers.arrive(&mut self.rows, &self.pulls, h, &world.threads);
+        self.fliers.arrive(&mut self.rows, &self.pulls, h, &Threads::default());
     }
 }

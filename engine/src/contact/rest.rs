@@ -120,7 +120,7 @@ impl Rest {
         guesses.resize(blocks.blocks.len(), Guess::NONE);
         threads.each(&mut guesses[..], (PIECE, BLOCKS_PER_THREAD), |from, guesses| {
             for (guess, block) in guesses.iter_mut().zip(&blocks.blocks[from..]) {
-                guess.begin(block.pushes());
+                guess.begin(block);
             }
         });
         for motions in [&mut *now, &mut *last, &mut *beyond] {
@@ -191,13 +191,14 @@ impl Rest {
         let Rest { guesses, now, .. } = self;
         threads.each(&mut blocks.blocks[..], (PIECE, BLOCKS_PER_THREAD), |from, blocks| {
             for (block, guess) in blocks.iter_mut().zip(&guesses[from..]) {
-                block.set_pushes(guess.pushes());
+                guess.end(block);
             }
         });
-        for row in blocks.rows() {
-            let now = &now[*row as usize];
-            rows.rows[*row as usize].set_motion(now.motion());
-        }
+        threads.each((&mut rows.rows[..], &now[..]), (1, PER_THREAD), |from, (rows, now)| {
+            for k in own_rows(blocks.rows(), from, now.len()) {
+                rows[k].set_motion(now[k].motion());
+            }
+        });
     }
 }
 

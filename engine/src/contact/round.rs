@@ -35,12 +35,15 @@ impl Guess {
     pub(super) const NONE: Guess = Guess { x: [Eight::ZERO; 3], last: [Eight::ZERO; 3] };
 
     /// The first guess: there is no last one.
-    pub(super) fn begin(&mut self, pushes: [Eight; 3]) {
-        (self.x, self.last) = (pushes, pushes);
+    pub(super) fn begin(&mut self, block: &Block) {
+        for (k, push) in [&block.push[0], &block.push[1], &block.grip].into_iter().enumerate() {
+            (self.x[k], self.last[k]) = (*push, *push);
+        }
     }
 
-    pub(super) fn pushes(&self) -> [Eight; 3] {
-        self.x
+    /// The block pushes so from now on.
+    pub(super) fn end(&self, block: &mut Block) {
+        [block.push[0], block.push[1], block.grip] = self.x;
     }
 }
 

@@ -5,6 +5,7 @@ use crate::area::Vec2;
 use crate::bodies::{Bodies, Motion};
 use crate::flight::Change;
 use crate::lanes::LANES;
+use crate::threads::{PER_THREAD, Threads};
 
 /// One body in contact: how it moves, how far it has come since the step began, and how easily it is moved.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -205,11 +206,13 @@ impl Rows {
     }
 
     /// Whether no mobile body is faster than that, at its radius of gyration either.
-    pub(super) fn are_slower_than(&self, limit: f64) -> bool {
-        self.of_mobile().iter().all(|Row(row)| {
+    pub(super) fn are_slower_than(&self, limit: f64, threads: &Threads) -> bool {
+        let slow = |Row(row): &Row| {
             let turning = row[SPIN] * row[SPIN] * row[INVERSE_MASS] / row[INVERSE_MOMENT];
             row[VX] * row[VX] + row[VZ] * row[VZ] + turning <= limit * limit
-        })
+        };
+        let slow = threads.each(self.of_mobile(), (1, PER_THREAD), |_, rows| rows.iter().all(slow));
+        slow.into_iter().all(|slow| slow)
     }
 }
 

@@ -174,7 +174,6 @@ impl Search {
     }
 
     fn sweep(&mut self, (bodies, acting, dt): (&Bodies, Acting, f64), (width, threads): (Width, &Threads)) {
-        let count = bodies.rects.len();
         let Search { owners, bounds, .. } = self;
         let owners = &owners[..];
         threads.each(&mut bounds[..], (LANES, PER_THREAD), |from, bounds| {

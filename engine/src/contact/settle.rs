@@ -2,8 +2,9 @@
 
 use super::Contacts;
 use super::rows::TURN;
-use crate::advance::is_finite;
+use crate::advance::stands;
 use crate::area::Vec2;
+use crate::bodies::{Bodies, Role, shift, turn};
 use crate::exchange::PairKind;
 use crate::step::Hit;
 use crate::threads::{PER_THREAD, Threads};
@@ -15,17 +16,8 @@ impl Contacts {
         if !self.solves {
             return;
         }
-        for (k, &body) in self.rows.mobile.iter().enumerate() {
-            let (body, row) = (body as usize, &self.rows.of_mobile()[k]);
-            let bodies = &mut world.bodies;
-            bodies.shift(body, row.place());
-            if row.0[TURN] != 0.0 {
-                bodies.turn(body, row.0[TURN]);
-            }
-            bodies.motion[body] = row.motion();
-            if !is_finite(bodies, body) {
-                world.report_fault(body);
-            }
+        if let Some(lost) = self.put_bodies(world) {
+            world.report_fault(lost);
         }
         for k in self.remember(&world.threads, share).into_iter().flatten() {
             let touch = &self.touches[k];
@@ -36,6 +28,29 @@ impl Contacts {
             self.tell(world, k, (point, normal), 0.0);
         }
         self.touches[self.found..].sort_unstable_by_key(|touch| touch.rects);
+    }
+
+    /// Bodies take their places and motions; gives the first that is no longer anywhere.
+    fn put_bodies(&self, world: &mut World) -> Option<usize> {
+        let Bodies { frame, lost, angle, motion, role, .. } = &mut world.bodies;
+        let columns = ((&mut frame[..], &mut lost[..]), (&mut angle[..], &mut motion[..]));
+        let lost = world.threads.each(columns, (1, PER_THREAD), |from, ((frame, lost), (angle, motion))| {
+            let mut gone = None;
+            for k in 0..frame.len() {
+                let row = self.rows.of((from + k) as u32).filter(|_| role[from + k] == Role::Mobile);
+                let Some(row) = row.map(|row| &self.rows.rows[row as usize]) else { continue };
+                shift((&mut frame[k], &mut lost[k]), row.place());
+                if row.0[TURN] != 0.0 {
+                    turn((&mut frame[k], &mut angle[k]), row.0[TURN]);
+                }
+                motion[k] = row.motion();
+                if !stands(&frame[k]) {
+                    gone = gone.or(Some(from + k));
+                }
+            }
+            gone
+        });
+        lost.into_iter().flatten().next()
     }
 
     /// Touches remember that share of what they pushed; gives those that press and did not touch before, in order.

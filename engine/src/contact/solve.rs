@@ -7,6 +7,7 @@ use super::rest::{Effort, Settled};
 use super::sweep::Sweep;
 use super::{Contacts, flying, rest, weights};
 use crate::lanes::LANES;
+use crate::threads::Threads;
 use crate::world::World;
 
 /// Touches to solve in a sub-step, in sweeps to and fro by turns, within limits; and to improve after that. In a quiet scene, where
@@ -69,14 +70,14 @@ impl Contacts {
         if turns {
             self.turn_midway(h, flying::FORCEFUL * pulled);
         }
-        self.fliers.set_out(&mut self.rows, &self.pulls, h, &world.threads);
+        self.fliers.set_out(&mut self.rows, &self.pulls, h, &Threads::default());
         self.blocks.note_places(&self.rows);
         let quiet = fastest <= QUIET * pulled;
         // Where nothing pulls, what counts is how fast things are.
         let scale = if pulled > 0.0 { pulled } else { fastest };
         let budget = if quiet { IN_QUIET } else { IN_MOTION };
         if quiet && !turns {
-            self.fliers.renew(&mut self.rows);
+            self.fliers.renew(&mut self.rows, &Threads::default());
         } else {
             self.width.run(Warm { rows: &mut self.rows.rows, blocks: &self.blocks.blocks });
         }
@@ -161,7 +162,7 @@ impl Contacts {
                 let pull = world.plan.gravity() * h;
                 weights::guess(&mut self.touches, &self.of_touch, &self.rows, &world.bodies, pull, self.band);
                 self.fliers.carry(&self.rows, (&self.touches, &self.of_touch), 1.0);
-                self.fliers.renew(&mut self.rows);
+                self.fliers.renew(&mut self.rows, &Threads::default());
                 self.blocks.renew(&self.touches);
             }
             let mut more = self.settle_for(world, Effort { enough: settled, most });

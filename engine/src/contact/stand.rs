@@ -31,10 +31,13 @@ impl World {
         let dt = self.plan.time_step;
         let pulled = self.plan.gravity().norm() * dt;
         let limit = NEARLY * rest::settled(contacts.touches.len(), pulled);
-        if pulled == 0.0 || contacts.plan.substeps == 1 || !contacts.presses() || !self.stands_still(limit) {
+        if pulled == 0.0 || contacts.plan.substeps == 1 || !contacts.presses() {
             return false;
         }
         if !stood {
+            if !self.stands_still(limit) {
+                return false;
+            }
             contacts.find(self, dt);
             contacts.lay_out(self, dt, contacts.plan.substeps);
             if contacts.touches.is_empty() {
@@ -52,7 +55,9 @@ impl World {
         contacts.settle(self, 1.0 / f64::from(contacts.plan.substeps));
         self.fly_alone(contacts, dt);
         contacts.close_books(self, dt);
-        contacts.stood = !parted && self.stands_still(0.0);
+        // What touches was made to stand.
+        let all_touch = contacts.rows.mobile.len() == self.movers.mobile.len();
+        contacts.stood = !parted && (all_touch || self.stands_still(0.0));
         true
     }
 
@@ -90,10 +95,10 @@ impl Contacts {
     /// Balances all forces over a step; whether they do and leave everything standing.
     fn balance(&mut self, world: &mut World, dt: f64, pulled: f64) -> bool {
         self.fliers.set_out(&mut self.rows, &self.pulls, dt, &world.threads);
-        self.fliers.renew(&mut self.rows);
+        self.fliers.renew(&mut self.rows, &world.threads);
         let enough = rest::settled(self.touches.len(), pulled);
         let balanced = self.settle_for(world, Effort { enough, most: ROUNDS }).enough;
-        let stand = balanced && self.rows.are_slower_than(enough);
+        let stand = balanced && self.rows.are_slower_than(enough, &world.threads);
         if stand {
             self.fliers.stand(&mut self.rows, dt, &world.threads);
         }

@@ -49,13 +49,12 @@ impl Still {
         self.looks += 1;
         let falls = pulls.on_all().is_some_and(|pull| pull.a != Vec2::zeros());
         let few = movers.mobile.len().pow(2) <= bodies.len();
-        if falls && !few {
+        let rests = |body: &u32| bodies.motion[*body as usize] == Motion::default();
+        if !few && (falls || !movers.mobile.iter().any(rests)) {
             self.forget();
             return self.none_lies();
         }
-        if !self.find_at_rest(bodies, pulls) && !few {
-            return self.none_lies();
-        }
+        self.find_at_rest(bodies, pulls);
         for body in before.iter().flat_map(|touch| [touch.a as usize, touch.b as usize]) {
             if bodies.is_mobile(body) {
                 self.free[body] = self.looks + LOOKS;
@@ -72,25 +71,22 @@ impl Still {
         changed
     }
 
-    /// Finds the bodies that do not move; whether there are mobile ones.
-    fn find_at_rest(&mut self, bodies: &Bodies, pulls: &Pulls) -> bool {
+    /// Finds the bodies that do not move.
+    fn find_at_rest(&mut self, bodies: &Bodies, pulls: &Pulls) {
         self.since.resize(bodies.len(), NEVER);
         self.frame.resize(bodies.len(), Frame::new(Vec2::zeros(), 0.0));
         self.free.resize(bodies.len(), 0);
         self.lies.resize(bodies.len(), false);
-        let mut any = false;
         let lay = self.since.iter_mut().zip(&mut self.frame);
         for (body, ((motion, frame), (since, lay))) in bodies.motion.iter().zip(&bodies.frame).zip(lay).enumerate() {
             if *motion != Motion::default() || pulls.pull(body) {
                 *since = NEVER;
                 continue;
             }
-            any |= bodies.is_mobile(body);
             if *since == NEVER || *lay != *frame {
                 (*since, *lay) = (self.looks, *frame);
             }
         }
-        any
     }
 
     fn none_lies(&mut self) -> bool {
