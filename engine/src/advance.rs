@@ -81,6 +81,9 @@ pub fn advance(
     lost_mobile.or(lost_fixed)
 }
 
+/// So many bodies for a thread are worth being brought from one processor to the other, to be moved and no more.
+const MANY: usize = 8 * PER_THREAD;
+
 /// The same for bodies that nothing touches, each under what acts on it, shared by threads; those on a course are left out.
 pub(crate) fn advance_alone(
     bodies: &mut Bodies,
@@ -94,7 +97,7 @@ pub(crate) fn advance_alone(
     let (linear, angular) = (Flight::new(drag.0, dt), Flight::new(drag.1, dt));
     let Bodies { frame, lost, angle, motion, role, .. } = &mut *bodies;
     let columns = ((&mut frame[..], &mut lost[..]), (&mut angle[..], &mut motion[..]));
-    let lost = threads.each(columns, (1, 8 * PER_THREAD), |from, ((frame, lost), (angle, motion))| {
+    let lost = threads.each(columns, (1, MANY), |from, ((frame, lost), (angle, motion))| {
         let mut gone = None;
         for k in 0..frame.len() {
             let i = from + k;

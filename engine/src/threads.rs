@@ -33,7 +33,7 @@ const PAUSE: usize = 8;
 const MOST_LATE: usize = 10;
 
 /// How many threads an iteration may be shared by, and those that help the first.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(crate) struct Threads(Option<Arc<Crew>>);
 
 /// The threads that help.
@@ -50,6 +50,9 @@ struct Crew {
 }
 
 impl Threads {
+    /// This one alone: for work so light that bodies are sooner done than brought from one processor to the other.
+    pub(crate) const ONE: Threads = Threads(None);
+
     /// One at least; one only where the system gives no more.
     pub(crate) fn new(count: usize) -> Threads {
         Threads(Crew::of(count.min(MOST).saturating_sub(1)).map(Arc::new))

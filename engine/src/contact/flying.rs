@@ -237,19 +237,17 @@ impl Fliers {
     }
 
     /// The sub-step ends: bodies have come where their motions took them.
-    pub(super) fn arrive(&mut self, rows: &mut Rows, pulls: &Pulls, h: f64, threads: &Threads) {
-        let (fliers, spent) = (&mut self.fliers[..], &self.spent[rows.first()..]);
+    pub(super) fn arrive(&mut self, rows: &mut Rows, pulls: &Pulls, h: f64) {
+        let spent = &self.spent[rows.first()..];
         let (mobile, moving) = rows.mobile_and_rows();
-        threads.each((fliers, moving), (1, PER_THREAD), |from, (fliers, rows)| {
-            for ((flier, Row(row)), k) in fliers.iter_mut().zip(rows).zip(from..) {
-                let by_force = flier.is_forced(row, &pulls.on_mobile(mobile[k] as usize), h);
-                let goes = flier.goes(row, h - spent[k], by_force);
-                flier.carried = flier.changed(row);
-                for (d, goes) in [X, Z, TURN].into_iter().zip(goes) {
-                    row[d] += goes;
-                }
+        for (k, (flier, Row(row))) in self.fliers.iter_mut().zip(moving).enumerate() {
+            let by_force = flier.is_forced(row, &pulls.on_mobile(mobile[k] as usize), h);
+            let goes = flier.goes(row, h - spent[k], by_force);
+            flier.carried = flier.changed(row);
+            for (d, goes) in [X, Z, TURN].into_iter().zip(goes) {
+                row[d] += goes;
             }
-        });
+        }
         for row in rows.of_fixed_mut() {
             *row = row.after(h);
         }

@@ -360,11 +360,11 @@ impl Contacts {
         self.strike_pairs(world, h);
         self.strike(world, h);
         if self.blocks.count == 0 {
-            self.fliers.set_out(&mut self.rows, &self.pulls, h, &Threads::default());
+            self.fliers.set_out(&mut self.rows, &self.pulls, h, &Threads::ONE);
         } else {
             self.solve(world, h);
         }
         self.book_substep(world, h);
-        self.fliers.arrive(&mut self.rows, &self.pulls, h, &Threads::default());
+        self.fliers.arrive(&mut self.rows, &self.pulls, h);
     }
 }

@@ -70,14 +70,14 @@ impl Contacts {
         if turns {
             self.turn_midway(h, flying::FORCEFUL * pulled);
         }
-        self.fliers.set_out(&mut self.rows, &self.pulls, h, &Threads::default());
+        self.fliers.set_out(&mut self.rows, &self.pulls, h, &Threads::ONE);
         self.blocks.note_places(&self.rows);
         let quiet = fastest <= QUIET * pulled;
         // Where nothing pulls, what counts is how fast things are.
         let scale = if pulled > 0.0 { pulled } else { fastest };
         let budget = if quiet { IN_QUIET } else { IN_MOTION };
         if quiet && !turns {
-            self.fliers.renew(&mut self.rows, &Threads::default());
+            self.fliers.renew(&mut self.rows, &Threads::ONE);
         } else {
             self.width.run(Warm { rows: &mut self.rows.rows, blocks: &self.blocks.blocks });
         }
@@ -162,7 +162,7 @@ impl Contacts {
                 let pull = world.plan.gravity() * h;
                 weights::guess(&mut self.touches, &self.of_touch, &self.rows, &world.bodies, pull, self.band);
                 self.fliers.carry(&self.rows, (&self.touches, &self.of_touch), 1.0);
-                self.fliers.renew(&mut self.rows, &Threads::default());
+                self.fliers.renew(&mut self.rows, &Threads::ONE);
                 self.blocks.renew(&self.touches);
             }
             let mut more = self.settle_for(world, Effort { enough: settled, most });
