@@ -1,5 +1,5 @@
-//! Eight pairs of rectangles looked at side by side: the touch of each, or that there is none, to the same bits as
-//! [`Touch::find`] one after the other.
+//! Pairs of rectangles looked at side by side, as many as a register holds: the touch of each, or that there is none, to the same
+//! bits as [`Touch::find`] one after the other.
 //!
 //! What is rare is left to that: pairs deep in each other that did not touch a step ago, pairs at a seam, pairs whose best face is
 //! passed by.

@@ -31,7 +31,7 @@ impl World {
         let dt = self.plan.time_step;
         let pulled = self.plan.gravity().norm() * dt;
         let limit = NEARLY * rest::settled(contacts.touches.len(), pulled);
-        if pulled == 0.0 || contacts.plan.substeps == 1 || !contacts.presses() {
+        if pulled == 0.0 || !contacts.presses() {
             return false;
         }
         if !stood {
