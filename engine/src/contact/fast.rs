@@ -266,7 +266,7 @@ impl Contacts {
         self.fast.met.push(next);
         let two = self.two(world, next.rects);
         let Some((after, manifold)) = two.meet(&paths, h - from) else {
-            self.forget(world, bodies, false);
+            self.forget(bodies, false);
             return;
         };
         let touch = two.touch_at(&paths, after, &manifold);
@@ -282,7 +282,7 @@ impl Contacts {
         self.exchange(world, k, (&manifold, &moved), h);
         self.look_again(world, k);
         let weakens = self.touches[k].surface.restitution < 1.0;
-        self.forget(world, bodies, weakens && bodies.into_iter().all(|body| world.bodies.is_mobile(body)));
+        self.forget(bodies, weakens && bodies.into_iter().all(|body| world.bodies.is_mobile(body)));
         for row in bodies.map(|body| self.rows.of(body as u32)).into_iter().flatten() {
             self.follow_if_fast(world, row, h);
         }
@@ -297,10 +297,9 @@ impl Contacts {
         self.book_ahead(world, row, (more, !held));
     }
 
-    /// Two bodies have met: what was foreseen of them holds no more; for others, only of a mobile one, for nothing moves what is fixed.
-    fn forget(&mut self, world: &World, bodies: [usize; 2], counts: bool) {
-        let moved = bodies.map(|body| world.bodies.is_mobile(body).then_some(body));
-        let concerns = |rect: u32| moved.contains(&Some(self.search.body_of(rect)));
+    /// Two bodies have met: what was foreseen of them holds no more.
+    fn forget(&mut self, bodies: [usize; 2], counts: bool) {
+        let concerns = |rect: u32| bodies.contains(&self.search.body_of(rect));
         for followed in &mut self.fast.followed {
             let own = self.rows.body_of(followed.row).is_some_and(|body| bodies.contains(&body));
             followed.strikes += u32::from(own && counts);
